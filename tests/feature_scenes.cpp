@@ -36,48 +36,52 @@ Scene scene_needing(const Features& features) {
     material.ambient = material.diffuse = {0.8, 0.6, 0.4};
     material.specular = {0.5, 0.5, 0.5};
     material.shininess = 20;
-    if (features.mirrors) material.mirror = {0.3, 0.4, 0.5};
-    if (features.glass) {
+    if (features[feature::mirrors]) material.mirror = {0.3, 0.4, 0.5};
+    if (features[feature::glass]) {
         material.transmission = {0.6, 0.5, 0.4};
         material.ior = 1.4;
     }
     scene.materials.push_back(material);
-    if (features.lights) scene.lights = {{{2, 3, 4}, {1, 1, 1}}, {{-3, 1, 2}, {0.4, 0.5, 0.6}}};
-    if (features.spheres) scene.spheres = {{{0, 0.2, 0}, 0.7, 0}, {{0.9, 0, 0.6}, 0.4, 0}};
-    if (features.cones) {
+    if (features[feature::lights])
+        scene.lights = {{{2, 3, 4}, {1, 1, 1}}, {{-3, 1, 2}, {0.4, 0.5, 0.6}}};
+    if (features[feature::spheres])
+        scene.spheres = {{{0, 0.2, 0}, 0.7, 0}, {{0.9, 0, 0.6}, 0.4, 0}};
+    if (features[feature::cones]) {
         scene.cones = {{{-0.8, -0.9, 0.8}, {-0.5, 0.6, 0.4}, 0.3, 0.1, 0},
                        {{0.9, 0.5, 0.4}, {0.2, 0.9, 0.2}, 0.2, 0.2, 0}};
     }
-    if (features.triangles) {
+    if (features[feature::triangles]) {
         scene.triangles = {{{{{-3, -1, 3}, {3, -1, 3}, {0, -1, -6}}}, {}, 0},
                            {{{{-1, -1, -1}, {-0.2, -1, 0.2}, {-0.8, 1, 0}}}, {}, 0}};
     }
-    if (features.huge_spheres) scene.spheres.push_back({{0, -1e5 - 2, 0}, 1e5, 0});
-    if (features.eye_on_surface && features.spheres) {
+    if (features[feature::huge_spheres]) scene.spheres.push_back({{0, -1e5 - 2, 0}, 1e5, 0});
+    if (features[feature::eye_on_surface] && features[feature::spheres]) {
         scene.spheres.push_back({{0, 0.5, 3.015625}, 0.015625, 0});  // too small to be huge
-    } else if (features.eye_on_surface && features.cones) {
+    } else if (features[feature::eye_on_surface] && features[feature::cones]) {
         scene.cones.push_back({{-0.2, 0.5, 3.25}, {0.2, 0.5, 3.25}, 0.25, 0.25, 0});
-    } else if (features.eye_on_surface) {
+    } else if (features[feature::eye_on_surface]) {
         scene.triangles.push_back({{{{-2, 0.5, 0}, {2, 0.5, 0}, {0, 0.5, -2}}}, {}, 0});
     }
-    if (features.vertex_normals) {
+    if (features[feature::vertex_normals]) {
         scene.triangles[1].normals = {{{-0.6, 0, 0.8}, {0.6, 0, 0.8}, {0, 0.6, 0.8}}};
     }
-    if (features.hierarchy) add_a_row(scene);
-    if (features.sobol) scene.aa = *parse_aa_mode("sobol:4");
-    if (features.edges) scene.aa = *parse_aa_mode("edges:0.05");
-    if (features.filters) scene.filter = Filter::tent;
+    if (features[feature::hierarchy]) add_a_row(scene);
+    if (features[feature::sobol]) scene.aa = *parse_aa_mode("sobol:4");
+    if (features[feature::edges]) scene.aa = *parse_aa_mode("edges:0.05");
+    if (features[feature::filters]) scene.filter = Filter::tent;
     return scene;
 }
 
 bool is_possible(const Features& features) {
-    if (features.vertex_normals && !features.triangles) return false;
-    if (features.huge_spheres && !features.spheres) return false;
-    if (features.edges && (features.filters || features.sobol)) return false;
-    const bool any_shape = features.spheres || features.cones || features.triangles;
-    if (features.eye_on_surface && !any_shape) return false;
-    return any_shape ||
-           !(features.hierarchy || features.lights || features.mirrors || features.glass);
+    if (features[feature::vertex_normals] && !features[feature::triangles]) return false;
+    if (features[feature::huge_spheres] && !features[feature::spheres]) return false;
+    if (features[feature::edges] && (features[feature::filters] || features[feature::sobol]))
+        return false;
+    const bool any_shape =
+        features[feature::spheres] || features[feature::cones] || features[feature::triangles];
+    if (features[feature::eye_on_surface] && !any_shape) return false;
+    return any_shape || !(features[feature::hierarchy] || features[feature::lights] ||
+                          features[feature::mirrors] || features[feature::glass]);
 }
 
 }  // namespace rt::test

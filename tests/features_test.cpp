@@ -21,7 +21,7 @@ namespace {
 std::vector<Features> lone_features() {
     std::vector<Features> sets;
     for (unsigned bits = 0; bits < 1u << feature_names.size(); ++bits) {
-        const Features features = features_of(static_cast<int>(bits));
+        const Features features = Features(bits);
         const std::size_t used = std::popcount(bits);
         if ((used <= 1 || used == feature_names.size()) && is_possible(features)) {
             sets.push_back(features);
@@ -53,8 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Features, OneFeatureAlone, testing::ValuesIn(lone_featu
 
 /// The number of samples is compiled in if a packet holds them; 1 and 4 are in lanes_test.
 TEST(RenderPixels, GivesTheSameBitsWithTwoSamples) {
-    Features features = no_features();
-    features.spheres = features.lights = features.sobol = true;
+    Features features;
+    features[feature::spheres] = features[feature::lights] = features[feature::sobol] = true;
     Scene scene = scene_needing(features);
     scene.aa = *parse_aa_mode("sobol:2");
     const std::uint64_t reference = hash_of(render_on_threads<float>(scene));
@@ -80,7 +80,7 @@ std::string entry_points_of(const ProgramOptions& options) {
 
 TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     ProgramOptions options;
-    options.features = no_features();
+    options.features = Features();
     options.entries = {true, false, false};
     EXPECT_EQ(entry_points_of(options), "render_pixels;sum_counts");
     options.entries = {false, true, false};
@@ -88,7 +88,7 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     options.entries = {false, false, false, true};
     EXPECT_EQ(entry_points_of(options), "render_centers;render_adaptive;sum_counts");
     options.entries = {false, false, false, false, true};
-    options.features.edges = true;
+    options.features[feature::edges] = true;
     EXPECT_EQ(entry_points_of(options), "render_centers;render_edges;sum_counts");
 }
 
@@ -122,19 +122,19 @@ TEST(BuildProgram, LeavesTheDeclarationsToTheCompilerWhereKernelsCallOtherFuncti
 }
 
 TEST(Flatten, LeavesOutLightsThatShineOnNothing) {
-    Scene scene = scene_needing(Features{});
+    Scene scene = scene_needing(every_feature);
     scene.lights.push_back({{0, 5, 0}, {0, 0, 0}});
     EXPECT_EQ(flatten<float>(scene).lights.size(), 2u);
     scene.materials[0].diffuse = scene.materials[0].specular = {0, 0, 0};
     EXPECT_TRUE(flatten<float>(scene).lights.empty());
-    EXPECT_FALSE(flatten<float>(scene).features.lights);
+    EXPECT_FALSE(flatten<float>(scene).features[feature::lights]);
 }
 
 TEST(Flatten, MirrorsAreNotNeededWithoutBouncesOrWithoutAnyoneWearingThem) {
-    Scene scene = scene_needing(Features{});
-    EXPECT_TRUE(flatten<float>(scene).features.mirrors);
+    Scene scene = scene_needing(every_feature);
+    EXPECT_TRUE(flatten<float>(scene).features[feature::mirrors]);
     scene.max_bounces = 0;
-    EXPECT_FALSE(flatten<float>(scene).features.mirrors);
+    EXPECT_FALSE(flatten<float>(scene).features[feature::mirrors]);
     scene.max_bounces = 8;
     Scene::Material plain = scene.materials[0];
     plain.mirror = {0, 0, 0};
@@ -142,21 +142,21 @@ TEST(Flatten, MirrorsAreNotNeededWithoutBouncesOrWithoutAnyoneWearingThem) {
     for (auto& sphere : scene.spheres) sphere.material = 1;
     for (auto& cone : scene.cones) cone.material = 1;
     for (auto& triangle : scene.triangles) triangle.material = 1;
-    EXPECT_FALSE(flatten<float>(scene).features.mirrors);
+    EXPECT_FALSE(flatten<float>(scene).features[feature::mirrors]);
 }
 
 TEST(Flatten, RefusesATreeDeeperThanItsStack) {
-    Scene scene = scene_needing(Features{});
+    Scene scene = scene_needing(every_feature);
     scene.max_bounces = f32::RT_TREE_STACK;
-    EXPECT_TRUE(flatten<float>(scene).features.glass);
+    EXPECT_TRUE(flatten<float>(scene).features[feature::glass]);
     scene.max_bounces += 1;
     const auto [code, message] = refusal_of([&] { flatten<double>(scene); });
     EXPECT_EQ(code, ExitCode::limit);
     EXPECT_NE(message.find("max_bounces"), message.npos);
     scene.materials[0].mirror = {0, 0, 0};
-    EXPECT_TRUE(flatten<float>(scene).features.glass);
+    EXPECT_TRUE(flatten<float>(scene).features[feature::glass]);
     scene.max_bounces = 0;
-    EXPECT_FALSE(flatten<float>(scene).features.glass);
+    EXPECT_FALSE(flatten<float>(scene).features[feature::glass]);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class EveryInstructionSet : public testing::TestWithParam<std::string> {
                     ThreadsOptions options;
                     options.kernels.isa = GetParam();
                     options.kernels.lanes = lanes;
-                    if (all_features) options.kernels.features = Features{};
+                    if (all_features) options.kernels.features = every_feature;
                     EXPECT_EQ(hash_of(render_on_threads<T>(scene, options)), hash)
                         << file << ", lanes " << lanes << ", all features " << all_features;
                 }

@@ -36,7 +36,7 @@ void expect_the_hash_of_lone_rays(int lanes, const char* stem, const char* aa, b
     const std::uint64_t hash = hash_of_lone_rays<T>(scene, std::string(stem) + " " + aa);
     ThreadsOptions packets;
     packets.kernels.lanes = lanes;
-    if (all_features) packets.kernels.features = Features{};
+    if (all_features) packets.kernels.features = every_feature;
     EXPECT_EQ(hash_of(render_on_threads<T>(scene, packets)), hash) << stem << " " << aa;
     for (const Launch launch : launches) {
         ClOptions options = cl_options(launch, all_features);

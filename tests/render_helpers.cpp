@@ -92,7 +92,7 @@ Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile
 ClOptions cl_options(Launch launch, bool all_features) {
     ClOptions options;
     options.kernels.launch = launch;
-    if (all_features) options.kernels.features = Features{};
+    if (all_features) options.kernels.features = every_feature;
     return options;
 }
 

@@ -42,7 +42,7 @@ const NativeKernels<float> single SWITCHABLE(1), packets SWITCHABLE(8);
 
 void set_switches(const Features& features) {
     for (std::size_t i = 0; i < feature_names.size(); ++i) {
-        rt_switches[i] = features.*feature_names[i].flag ? 1 : 0;
+        rt_switches[i] = features[i] ? 1 : 0;
     }
 }
 
@@ -68,10 +68,10 @@ std::uint64_t hash_by(const NativeKernels<float>& kernels, const FlatScene<float
 TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
     static_assert(feature_names.size() == std::size(rt_switches));
     ThreadsOptions everything;
-    everything.kernels.features = Features{};
+    everything.kernels.features = every_feature;
     int sets = 0;
     for (int bits = 0; bits < 1 << feature_names.size(); ++bits) {
-        const Features features = features_of(bits);
+        const Features features = Features(static_cast<unsigned>(bits));
         if (!is_possible(features)) continue;
         ++sets;
         const Scene scene = scene_needing(features);
@@ -87,18 +87,18 @@ TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
 
 /// Otherwise the test above would compare a picture with itself.
 TEST(Switches, DoSomething) {
-    const FlatScene<float> flat = flatten<float>(scene_needing(features_of(0xfff)));
-    set_switches(features_of(0xfff));
+    const FlatScene<float> flat = flatten<float>(scene_needing(Features(0xfff)));
+    set_switches(Features(0xfff));
     const std::uint64_t all = hash_by(packets, flat);
     for (const int bit : {0, 3, 4, 5, 7, 8, 9, 10, 11}) {
-        set_switches(features_of(0xfff & ~(1 << bit)));
+        set_switches(Features(0xfff & ~(1 << bit)));
         EXPECT_NE(hash_by(packets, flat), all) << feature_names[bit].name;
     }
-    const Features edges = features_of(0x17ff);
+    const Features edges = Features(0x17ff);
     const FlatScene<float> with_edges = flatten<float>(scene_needing(edges));
     set_switches(edges);
     const std::uint64_t found = hash_by(packets, with_edges);
-    set_switches(features_of(0x7ff));
+    set_switches(Features(0x7ff));
     EXPECT_NE(hash_by(packets, with_edges), found);
 }
 

@@ -106,20 +106,20 @@ std::uint64_t parse_hash(const std::string& text) {
 
 /// "all", "auto", or names as in --stats with hyphens for blanks.
 void parse_features(const std::string& text, RenderOptions& render) {
-    render.kernels.features = text == "all" ? Features{} : no_features();
+    render.kernels.features = text == "all" ? every_feature : Features();
     if (text == "all" || text == "auto") return;
+    std::vector<std::string> names;
+    for (const FeatureName& feature : feature_names) {
+        std::string& name = names.emplace_back(feature.name);
+        std::replace(name.begin(), name.end(), ' ', '-');
+    }
     for (const std::string& part : split_list(text)) {
-        const FeatureName* found = nullptr;
-        std::vector<std::string> names;
-        if (part == text) names = {"auto", "all"};
-        for (const FeatureName& feature : feature_names) {
-            std::string name = feature.name;
-            std::replace(name.begin(), name.end(), ' ', '-');
-            if (name == part) found = &feature;
-            names.push_back(std::move(name));
+        const auto found = std::find(names.begin(), names.end(), part);
+        if (found == names.end()) {
+            if (part == text) names.insert(names.begin(), {"auto", "all"});
+            refuse_choice(part, names);
         }
-        if (found == nullptr) refuse_choice(part, names);
-        render.kernels.features.*found->flag = true;
+        render.kernels.features.set(static_cast<std::size_t>(found - names.begin()));
     }
 }
 

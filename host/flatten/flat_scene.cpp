@@ -280,20 +280,21 @@ class Flattener {
 
     void set_features() {
         Features& features = flat_.features;
-        features.spheres = !flat_.spheres.empty();
-        features.huge_spheres = std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
-                                            [](const auto& sphere) { return sphere.is_huge != 0; });
-        features.eye_on_surface = flat_.params.eye_on_surface != 0;
-        features.cones = !flat_.cones.empty();
-        features.triangles = !flat_.triangles.empty();
-        features.vertex_normals = !flat_.vertex_normals.empty();
-        features.hierarchy = !flat_.nodes.empty();
-        features.lights = !flat_.lights.empty();
-        features.mirrors = scene_.max_bounces > 0 && material_use_.mirrors;
-        features.glass = scene_.max_bounces > 0 && material_use_.transmits;
-        features.edges = flat_.params.tolerance > 0;
-        features.sobol = flat_.params.sampling == f32::RT_SAMPLES_SOBOL;
-        features.filters = flat_.params.filter != f32::RT_FILTER_BOX;
+        features[feature::spheres] = !flat_.spheres.empty();
+        features[feature::huge_spheres] =
+            std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
+                        [](const auto& sphere) { return sphere.is_huge != 0; });
+        features[feature::eye_on_surface] = flat_.params.eye_on_surface != 0;
+        features[feature::cones] = !flat_.cones.empty();
+        features[feature::triangles] = !flat_.triangles.empty();
+        features[feature::vertex_normals] = !flat_.vertex_normals.empty();
+        features[feature::hierarchy] = !flat_.nodes.empty();
+        features[feature::lights] = !flat_.lights.empty();
+        features[feature::mirrors] = scene_.max_bounces > 0 && material_use_.mirrors;
+        features[feature::glass] = scene_.max_bounces > 0 && material_use_.transmits;
+        features[feature::edges] = flat_.params.tolerance > 0;
+        features[feature::sobol] = flat_.params.sampling == f32::RT_SAMPLES_SOBOL;
+        features[feature::filters] = flat_.params.filter != f32::RT_FILTER_BOX;
     }
 
     const Scene& scene_;

@@ -441,11 +441,11 @@ ProgramOptions picture_program(const FlatScene<T>& scene, const ClDevice& device
     program.lanes = packet_lanes<T>(kernels.lanes, device);
     program.math = options.math;
     program.entries = {by_pixels, by_samples, false, in_rounds && !finds_edges, finds_edges};
-    program.features = either_of(scene.features, kernels.features);
+    program.features = scene.features | kernels.features;
     program.more = kernels.cl_options;
     const auto samples = static_cast<int>(scene.params.samples);
     const bool is_one_packet = by_pixels && packet_shape(program.lanes, samples).samples == samples;
-    if (is_one_packet && !kernels.any_samples && !kernels.has_all()) program.samples = samples;
+    if (is_one_packet && !kernels.any_samples && !kernels.features.all()) program.samples = samples;
     return program;
 }
 

@@ -162,14 +162,14 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     } else if (device.rounds_correctly) {
         text += " -cl-fp32-correctly-rounded-divide-sqrt";
     }
-    for (const FeatureName& feature : feature_names) {
-        if (!(options.features.*feature.flag)) text += fmt::format(" -D{}=0", feature.macro);
+    for (std::size_t i = 0; i < options.features.size(); ++i) {
+        if (!options.features[i]) text += fmt::format(" -D{}=0", feature_names[i].macro);
     }
     if (options.samples != 0) text += fmt::format(" -DRT_SAMPLES={}", options.samples);
     if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";
     if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
     if (!options.entries.adaptive && options.samples == 0) text += " -DRT_RENDERS_ADAPTIVE=0";
-    if (!options.entries.edges && options.features.edges) text += " -DRT_RENDERS_EDGES=0";
+    if (!options.entries.edges && options.features[feature::edges]) text += " -DRT_RENDERS_EDGES=0";
     if (!options.entries.rays) text += " -DRT_TRACES_RAYS=0";
     for (const std::string& more : {build_extras().options, options.more}) {
         if (!more.empty()) text += " " + more;

@@ -61,7 +61,7 @@ struct ProgramOptions {
     Math math = Math::strict;
     int lanes = 1;    ///< rays of a packet: 1, 2, 4, 8 or 16
     int samples = 0;  ///< per pixel, if a packet holds them all: compiled in; 0: any number
-    Features features;
+    Features features = every_feature;
     EntryPoints entries;
     std::string more;  ///< options for the driver's compiler
 };

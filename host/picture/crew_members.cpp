@@ -122,7 +122,7 @@ CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone)
     member.stats.driver = device.driver;
     member.stats.launch = by_samples ? "sample" : "pixel";
     member.stats.lanes = packet_lanes<T>(settings.kernels.lanes, device);
-    member.stats.kernels = either_of(scene->features, settings.kernels.features);
+    member.stats.kernels = scene->features | settings.kernels.features;
     return member;
 }
 

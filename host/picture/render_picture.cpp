@@ -210,8 +210,9 @@ class Job {
     /// What is wrong with the devices' results: their ray count, or, if requested, a sample of the
     /// tiles. Empty if nothing is.
     std::string what_is_wrong() {
-        const std::string rays = impossible_rays(stats_.rays, stats_.scene.lights,
-                                                 picture_.max_bounces, scene_->features.glass);
+        const std::string rays =
+            impossible_rays(stats_.rays, stats_.scene.lights, picture_.max_bounces,
+                            scene_->features[feature::glass]);
         if (!rays.empty()) return "reports an impossible number of rays: " + rays;
         if (settings_.check <= 0) return "";
         const TileCheck check = check_tiles(*scene_, settings_.kernels.isa,
@@ -265,7 +266,7 @@ class Job {
     }
 
     RenderedPicture finished_picture() {
-        stats_.scene.compiled = either_of(stats_.scene.features, stats_.device.kernels);
+        stats_.scene.compiled = stats_.scene.features | stats_.device.kernels;
         stats_.image_hash = hash_of(film_);
         RenderedPicture rendered;
         rendered.picture.width = film_.width;

@@ -23,13 +23,13 @@ struct DeviceStats {
     std::string name;      ///< "threads" or the OpenCL device's name
     std::string platform;  ///< OpenCL platform; empty for threads
     std::string driver;
-    std::string launch;                ///< "pixel" or "sample" work items; empty for threads
-    int lanes = 0;                     ///< rays of a packet
-    std::string isa;                   ///< of the threads' kernels: x86-64-v4; empty for OpenCL
-    std::string schedule;              ///< "tiles" or "buffers"; empty for OpenCL
-    int threads = 0;                   ///< of the pthreads renderer; 0 for OpenCL
-    std::string fallback_from;         ///< the device that failed before; empty when none did
-    Features kernels = no_features();  ///< compiled into its kernels; none for several devices
+    std::string launch;         ///< "pixel" or "sample" work items; empty for threads
+    int lanes = 0;              ///< rays of a packet
+    std::string isa;            ///< of the threads' kernels: x86-64-v4; empty for OpenCL
+    std::string schedule;       ///< "tiles" or "buffers"; empty for OpenCL
+    int threads = 0;            ///< of the pthreads renderer; 0 for OpenCL
+    std::string fallback_from;  ///< the device that failed before; empty when none did
+    Features kernels;           ///< compiled into its kernels; none for several devices
 };
 
 template <typename A, Of<DeviceStats> X>
@@ -210,8 +210,8 @@ template <typename A, typename X>
 void describe_run(A& a, X& x) {
     a.group("settings", [&](auto& inner) {
         describe(inner, x.picture);
-        const Features added = x.kernels.has_all() ? no_features() : x.kernels.features;
-        inner("features", std::string(x.kernels.has_all() ? "all" : "auto"),
+        const Features added = x.kernels.features.all() ? Features() : x.kernels.features;
+        inner("features", std::string(x.kernels.features.all() ? "all" : "auto"),
               "what is compiled: what the scene needs, or everything");
         inner("features_added", names_of(added, true), "compiled although not needed");
         inner("hierarchies",

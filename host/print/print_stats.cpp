@@ -39,13 +39,6 @@ std::string share_text(const DeviceShare& share) {
     return fmt::format("{}: {}, ready after {:.3f} s", name, pixels, share.ready);
 }
 
-Features without(Features features, const Features& others) {
-    for (const FeatureName& name : feature_names) {
-        if (others.*name.flag) features.*name.flag = false;
-    }
-    return features;
-}
-
 void add_phase(std::string& text, const char* name, double seconds, const std::string& note = "") {
     text += fmt::format("  {:<20}{:>10.4f} s{}\n", name, seconds, note.empty() ? "" : "   " + note);
 }
@@ -98,8 +91,9 @@ std::string names_text(const Features& features, bool used) {
 std::string holdings_text(const SceneStats& scene) {
     return fmt::format("{}, {}, {}, {}{}{}", counted(scene.spheres, "sphere"),
                        counted(scene.cones, "cone"), counted(scene.triangles, "triangle"),
-                       counted(scene.lights, "light"), scene.features.mirrors ? ", mirrors" : "",
-                       scene.features.glass ? ", glass" : "");
+                       counted(scene.lights, "light"),
+                       scene.features[feature::mirrors] ? ", mirrors" : "",
+                       scene.features[feature::glass] ? ", glass" : "");
 }
 
 std::string flatten_text(const FlattenStats& stats) {
@@ -173,9 +167,9 @@ std::string stats_text(const RenderStats& stats) {
     const Features& compiled = stats.scene.compiled;
     text += fmt::format("needs: {}\nleaves out: {}\n", names_text(stats.scene.features, true),
                         names_text(compiled, false));
-    if (!(compiled == stats.scene.features)) {
+    if (compiled != stats.scene.features) {
         text += fmt::format("compiled in but not needed: {}\n",
-                            names_text(without(compiled, stats.scene.features), true));
+                            names_text(compiled & ~stats.scene.features, true));
     }
     text += flatten_text(stats.scene.flatten);
     text += phases_text(stats.phases) + rays_text(stats);

@@ -176,7 +176,7 @@ std::vector<double> ErrorEstimator<T>::trace(const std::vector<std::int32_t>& pi
                                              std::uint64_t& samples) const {
     ThreadsOptions any_samples = options;
     any_samples.kernels.any_samples = true;
-    any_samples.kernels.features.sobol = true;
+    any_samples.kernels.features[feature::sobol] = true;
     const NativeKernels<T>& kernels = native_kernels_for(scene, any_samples);
     NativeView<T> view = native_view(scene);
     const bool is_sobol = aa.pattern == AaMode::Pattern::sobol;

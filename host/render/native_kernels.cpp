@@ -35,19 +35,19 @@ namespace rt {
 
 namespace {
 
-#define RT_NATIVE_ROW(name, isa, isa_lanes) \
-    {isa,                                   \
-     isa_lanes,                             \
-     features_of(name##_traits[0]),         \
-     name##_traits[1],                      \
-     name##_traits[2],                      \
-     name##_pixels,                         \
-     name##_samples,                        \
-     name##_resolve,                        \
-     name##_list,                           \
-     name##_centers,                        \
-     name##_adaptive,                       \
-     name##_edges,                          \
+#define RT_NATIVE_ROW(name, isa, isa_lanes)             \
+    {isa,                                               \
+     isa_lanes,                                         \
+     Features(static_cast<unsigned>(name##_traits[0])), \
+     name##_traits[1],                                  \
+     name##_traits[2],                                  \
+     name##_pixels,                                     \
+     name##_samples,                                    \
+     name##_resolve,                                    \
+     name##_list,                                       \
+     name##_centers,                                    \
+     name##_adaptive,                                   \
+     name##_edges,                                      \
      name##_rays},
 
 template <typename T>
@@ -89,7 +89,7 @@ bool serves(const NativeKernels<T>& kernels, const KernelChoice& choice, int sam
     const int lanes = choice.lanes == 0 ? kernels.isa_lanes : choice.lanes;
     return kernels.isa == choice.isa && kernels.lanes == lanes &&
            (kernels.samples == 0 || kernels.samples == samples) &&
-           either_of(kernels.features, choice.features) == kernels.features;
+           (choice.features & ~kernels.features).none();
 }
 
 }  // namespace

@@ -85,13 +85,10 @@ struct KernelChoice {
     int lanes = 0;         ///< rays of a packet: 1, 2, 4, 8 or 16; 0: as suits the device
     std::string isa = {};  ///< instruction set of the threads' kernels; empty: the best here
     Launch launch = Launch::automatic;  ///< of OpenCL devices
-    Features features = no_features();  ///< compiled in although the scene may not need them
+    Features features;                  ///< compiled in although the scene may not need them
     bool any_samples = false;           ///< a loop over samples, although the count is known
     std::string cl_options = {};        ///< further ones for the compilers of OpenCL drivers
     std::size_t group = 0;              ///< work items of an OpenCL work group; 0: as is best
-
-    /// Whether everything is compiled in.
-    bool has_all() const { return features == Features{}; }
 };
 
 /// How the threads of the pthreads renderer share the work.

@@ -184,8 +184,8 @@ template <typename T>
 const NativeKernels<T>& native_kernels_for(const FlatScene<T>& scene,
                                            const ThreadsOptions& options) {
     KernelChoice choice = options.kernels;
-    choice.features = either_of(scene.features, choice.features);
-    const bool any_samples = choice.any_samples || options.kernels.has_all();
+    choice.features = scene.features | choice.features;
+    const bool any_samples = choice.any_samples || options.kernels.features.all();
     return choose_native<T>(choice, any_samples ? 0 : static_cast<int>(scene.params.samples));
 }
 
@@ -198,7 +198,7 @@ std::unique_ptr<Renderer<T>> make_threads_renderer(const FlatScene<T>& scene,
 template <typename T>
 RayTracer<T> make_threads_ray_tracer(const FlatScene<T>& scene, const ThreadsOptions& options) {
     KernelChoice choice = options.kernels;
-    choice.features = Features{};
+    choice.features = every_feature;
     const NativeKernels<T>& kernels = choose_native<T>(choice, 0);
     const int threads = thread_count({options.threads}, 1);
     return [&kernels, threads, view = native_view(scene)](auto queries, auto answers) {

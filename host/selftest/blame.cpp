@@ -195,7 +195,7 @@ class PictureBlame {
     /// Fills the blame in, if a picture is wrong.
     void find() {
         KernelChoice all, samples, own;
-        all.features = samples.features = Features{};
+        all.features = samples.features = every_feature;
         all.any_samples = samples.any_samples = true;
         all.launch = own.launch = Launch::pixel;
         samples.launch = Launch::sample;
@@ -265,11 +265,11 @@ class PictureBlame {
         const bool is_sampled = base_.kernels.launch == Launch::sample;
         vary_by(is_sampled ? "a pixel per work item" : "a sample per work item",
                 [&](auto& k) { k.launch = is_sampled ? Launch::pixel : Launch::sample; });
-        for (const FeatureName& feature : feature_names) {
-            if (flat_.features.*feature.flag) continue;
-            const bool is_on = base_.kernels.features.*feature.flag;
-            vary_by(fmt::format("{} {}", is_on ? "without" : "with", feature.name),
-                    [&](auto& k) { k.features.*feature.flag = !is_on; });
+        for (std::size_t i = 0; i < flat_.features.size(); ++i) {
+            if (flat_.features[i]) continue;
+            const bool is_on = base_.kernels.features[i];
+            vary_by(fmt::format("{} {}", is_on ? "without" : "with", feature_names[i].name),
+                    [&](auto& k) { k.features.flip(i); });
         }
         vary_by("groups of 1 work item", [](auto& k) { k.group = 1; });
         vary_by("groups of 32 work items", [](auto& k) { k.group = 32; });

@@ -67,7 +67,7 @@ RenderSettings golden_settings(const GoldenPicture& picture) {
 /// One program for all scenes.
 KernelChoice all_features() {
     KernelChoice kernels;
-    kernels.features = Features{};
+    kernels.features = every_feature;
     kernels.any_samples = true;
     return kernels;
 }

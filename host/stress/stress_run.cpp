@@ -25,7 +25,7 @@ namespace {
 RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
     RenderSettings settings = timed_settings();
     settings.precision = row.precision;
-    if (stress.quick || stress.all_features) settings.kernels.features = Features{};
+    if (stress.quick || stress.all_features) settings.kernels.features = every_feature;
     return settings;
 }
 
