@@ -135,41 +135,6 @@ class Bench(FiguresTest):
             self.assertIn(environment["git_revision"], line["version"])
             self.assertEqual(line["driver"] != "", line["device_name"] != "threads")
 
-    def bench_against(self, seconds, code):
-        """A bench against this one with so many seconds more: beyond any noise, without its own."""
-        old = json.loads(json.dumps(self.result))
-        for row in old["rows"]:
-            for name in ["trace", "total"]:
-                row["figures"][name]["median"] += seconds
-                row["figures"][name]["mad"] = 0
-        path = pathlib.Path(CACHE.name) / "old.json"
-        path.write_text(json.dumps(old), encoding="utf-8")
-        return run("bench", SCENE, "--sizes", "16", "--repeats", "5", "--devices", "threads:1",
-                   "--baseline", str(path), "--max-regress", "5%", "-q", code=code)
-
-    def test_baseline(self):
-        self.assertIn("slower: ", self.bench_against(-1e6, 1).stderr)
-        self.assertEqual(self.bench_against(1e6, 0).stderr, "")
-
-    def test_damaged_baseline(self):
-        """Refused before anything is measured."""
-        path = pathlib.Path(CACHE.name) / "damaged.json"
-        good = json.dumps(self.result)
-        for text in ["", "[]", "{}", good[:-9]]:
-            path.write_text(text, encoding="utf-8")
-            result = run("bench", SCENE, "--sizes", "16", "--baseline", str(path), code=3)
-            self.assertIn("damaged.json: is not ", result.stderr)
-            self.assertNotIn("exception", result.stderr)
-            self.assertEqual((result.stdout, result.stderr.count("\n")), ("", 1))
-
-    def test_baseline_of_other_rows(self):
-        """Refused before anything is measured."""
-        path = pathlib.Path(CACHE.name) / "old.json"
-        path.write_text(json.dumps(self.result), encoding="utf-8")
-        result = run("bench", SCENE, "--sizes", "17", "--devices", "threads:1", "--baseline", str(path), code=3)
-        self.assertIn("matches the baseline", result.stderr)
-        self.assertNotIn("warm-up", result.stderr)
-
     def test_a_scene_is_never_replaced_by_results(self):
         before = pathlib.Path(SCENE).read_bytes()
         self.assertIn("choose another name", run("bench", "--json=" + SCENE, code=2).stderr)
@@ -177,7 +142,7 @@ class Bench(FiguresTest):
 
     def test_wrong_usage(self):
         for options in [["--aa", "none,mush"], ["--sizes", "0"], ["--devices", "threads:0"],
-                        ["--max-regress", "fast"], ["--json", "--csv"], ["--schedules", "x"]]:
+                        ["--json", "--csv"], ["--schedules", "x"]]:
             run("bench", SCENE, *options, code=2)
 
 

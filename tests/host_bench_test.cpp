@@ -79,14 +79,6 @@ TEST(Pareto, SlopeIsExactWhereTimesAreNearlyEqual) {
     }
 }
 
-TEST(Baseline, SlowerMeansBeyondTheShareAndBeyondTheNoise) {
-    const Spread before{1.0, 0.01, 0.9, 1.1};
-    EXPECT_FALSE(is_slower(before, {1.04, 0.0, 1, 1}, 0.05));
-    EXPECT_TRUE(is_slower(before, {1.10, 0.01, 1, 1}, 0.05));
-    EXPECT_FALSE(is_slower(before, {1.10, 0.03, 1, 1}, 0.05));
-    EXPECT_FALSE(is_slower(before, {0.50, 0.0, 1, 1}, 0.05));
-}
-
 TimedRun run_of(double trace, double build, int threads) {
     TimedRun run;
     run.phases.renderer.trace = trace;
@@ -113,28 +105,6 @@ TEST(Bench, WrongRowHasNoTimingAndIsNoBase) {
     result.judge();
     EXPECT_FALSE(result.rows[0].figures);
     EXPECT_FALSE(result.rows[1].figures->speed_up);
-}
-
-BenchFigures figures_of(const Spread& trace, const Spread& total) {
-    BenchFigures figures;
-    figures.trace = trace;
-    figures.total = total;
-    return figures;
-}
-
-TEST(Bench, RegressionsAreFoundByKey) {
-    BenchResult result;
-    result.rows = {threads_row(1, {9, 9, 9}), threads_row(2, {4, 4, 4})};
-    result.judge();
-    Baseline baseline;
-    baseline[key_of(result.rows[0].asked)] = figures_of({9, 0, 9, 9}, {10, 0, 10, 10});
-    EXPECT_TRUE(regressions(result, baseline, 0.05).empty());
-    baseline[key_of(result.rows[1].asked)] = figures_of({3, 0, 3, 3}, {4, 0, 4, 4});
-    const std::vector<std::string> slower = regressions(result, baseline, 0.05);
-    ASSERT_EQ(slower.size(), 1U);
-    EXPECT_TRUE(slower[0].starts_with(key_of(result.rows[1].asked) + ": "));
-    EXPECT_NO_THROW(check_baseline({result.rows[0].asked, result.rows[1].asked}, baseline));
-    EXPECT_ANY_THROW(check_baseline({result.rows[0].asked}, {}));
 }
 
 TEST(Bench, RoundsAreThoseThatWereDone) {

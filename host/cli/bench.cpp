@@ -17,37 +17,20 @@ namespace {
 /// `mirrorball bench`
 struct BenchCall : BenchOptions {
     ResultFiles results;
-    std::string baseline;       ///< an earlier --json file; empty: none
-    double max_regress = 0.05;  ///< allowed loss of a row, as a share of the old median
 };
 
 std::string row_name(const BenchCase& asked) {
     return fmt::format("{} ({})", key_of(asked), asked.device_name);
 }
 
-/// Whether any row has become slower; reports each on stderr.
-bool has_regressed(const BenchResult& result, const Baseline& baseline, double max_regress,
-                   bool quiet) {
-    const auto found = regressions(result, baseline, max_regress);
-    if (found.empty() && !quiet) print_note("no row is slower than the baseline's");
-    for (const std::string& line : found) print_note("slower: " + line);
-    return !found.empty();
-}
-
 int run_bench(const BenchCall& options) {
-    options.results.check({options.baseline}, {});
-    Baseline baseline;
-    if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
+    options.results.check({}, {});
     start_fresh_pocl_cache();
-    const BenchResult result =
-        measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
+    const BenchResult result = measure_bench(options);
     if (!options.results.take_stdout()) print_result(bench_text(result));
     options.results.write("--json", [&] { return result_json("bench", result); });
     options.results.write("--csv", [&] { return bench_csv(result); });
-    const int status = report_bad_rows(result.rows, result.interrupted, row_name);
-    const bool slower = !options.baseline.empty() && !result.interrupted &&
-                        has_regressed(result, baseline, options.max_regress, options.quiet);
-    return slower ? static_cast<int>(ExitCode::different) : status;
+    return report_bad_rows(result.rows, result.interrupted, row_name);
 }
 
 }  // namespace
@@ -71,10 +54,6 @@ void add_bench(Verb& program, Invocation& call) {
                "pthreads schedules: tiles, buffers, scalar (tiles, one ray at a time; with one "
                "thread and with all threads) (default: all)");
     add_repeats(verb, bench.repeats, 1);
-    verb.value("--baseline", "FILE", bench.baseline,
-               "compare with an earlier --json file: exit 1 if a row has become slower");
-    verb.value("--max-regress", "P%", bench.max_regress, percent_to(1e6),
-               "how much slower a row may become; changes within noise also pass (default: 5%)");
     bench.results.add(verb, "--json", json_start("bench"), "write all measurements as JSON");
     bench.results.add(verb, "--csv", csv_start, "write one row per run as CSV");
     add_build_extras(verb);

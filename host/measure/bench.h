@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -111,24 +110,6 @@ double parallel_fraction(double trace_seconds, double total_seconds);
 /// Amdahl's law: how many times faster `threads` threads can be at most, 1 / ((1 - f) + f / n).
 double amdahl_speed_up(double parallel_fraction, int threads);
 
-/// What an earlier bench measured for right rows, by key_of.
-using Baseline = std::map<std::string, BenchFigures>;
-
-/// Reads the JSON of an earlier bench. Throws Error (ExitCode::input).
-Baseline load_baseline(const std::string& path);
-
-/// Whether a row has become slower: its median exceeds the old one by more than the fraction
-/// `max_regress`, and by more than 3 times the summed MADs, so that noise alone does not count.
-bool is_slower(const Spread& before, const Spread& now, double max_regress);
-
-/// Throws Error (ExitCode::input) if none of the rows to be measured is in the baseline.
-void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline);
-
-/// A line for each row of the result that is in the baseline and slower now, in total or else in
-/// trace: its key, which of them, from, to, and the noise.
-std::vector<std::string> regressions(const BenchResult& result, const Baseline& baseline,
-                                     double max_regress);
-
 /// How threads render a row's picture.
 struct ThreadsWay {
     Schedule schedule = Schedule::tiles;
@@ -155,7 +136,6 @@ struct BenchOptions {
     bool quiet = false;
 };
 
-/// Measures. With a baseline, throws Error (ExitCode::input) before that if no row is in it.
-BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline);
+BenchResult measure_bench(const BenchOptions& options);
 
 }  // namespace rt

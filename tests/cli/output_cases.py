@@ -109,11 +109,6 @@ class OverInputs(CliTest):
         for _ in range(2):
             self.succeed("compare", "a.png", "a.png", "--json=a.json")
 
-    def test_baseline_of_bench(self):
-        self.write_text("old.json", '{\n  "format": "mirrorball-bench"')
-        self.refuse("bench", scene_path(SCENE), "--baseline", "old.json", "--json", "old.json",
-                    files=["old.json"])
-
 
 class OneFileTwice(CliTest):
     """Two results in one file, by whatever names, are refused before any work."""

@@ -69,7 +69,7 @@ class WrongOption(CliTest):
         for option in ["--reference", "--batch", "--device"]:
             with self.subTest(option=option):
                 self.assert_option_refused(option, "")
-        for verb, option in [("bench", "--baseline"), ("report", "--plots"), ("stress", "-o")]:
+        for verb, option in [("report", "--plots"), ("stress", "-o")]:
             self.assert_refused(self.run_cli(verb, *["x"] * (verb != "stress"), option, ""), 2,
                                 option, "expected a name")
 
