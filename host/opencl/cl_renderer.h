@@ -14,7 +14,7 @@
 
 namespace rt {
 
-/// kernels/render.cl with its includes, embedded at build time (host/embed_kernels.cpp).
+/// kernels/render.cl with its includes, embedded at build time (cmake/embed_kernels.cpp).
 extern const char* const render_kernels;
 
 class OpenDevices;
