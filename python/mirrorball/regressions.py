@@ -25,21 +25,22 @@ def regressions(old: dict[str, Any], new: dict[str, Any], max_regress: float = .
 
     Raises ValueError if no row is in both.
     """
-    known, rows = _figures(old), _figures(new)
+    known, rows = _rows(old), _rows(new)
     if not known.keys() & rows.keys():
         raise ValueError("no row is in both results; use the same scenes, sizes, AA modes and devices")
     lines = []
-    for key in rows.keys() & known.keys():
-        for what in ("total", "trace"):
-            before, now = known[key][what], rows[key][what]
+    for key, row in rows.items():
+        for what in ("total", "trace") if key in known else ():
+            before, now = known[key]["figures"][what], row["figures"][what]
             if slower(before, now, max_regress):
-                lines.append(f"{key}: {what} {now['median']:.6f} s was {before['median']:.6f} s")
+                name = " ".join([row["scene"]["path"], *key.split()[1:]])  # a key begins with the scene's hash
+                lines.append(f"{name}: {what} {now['median']:.6f} s was {before['median']:.6f} s")
                 break
-    return sorted(lines)
+    return lines
 
 
-def _figures(result: dict[str, Any]) -> dict[str, Any]:
-    return {row["key"]: row["figures"] for row in result["rows"] if row["figures"]}
+def _rows(result: dict[str, Any]) -> dict[str, Any]:
+    return {row["key"]: row for row in result["rows"] if row["figures"]}
 
 
 def _read(path: str) -> dict[str, Any]:
@@ -47,8 +48,9 @@ def _read(path: str) -> dict[str, Any]:
         result = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
         if (result["format"], result["version"]) != ("mirrorball-bench", 1):
             raise ValueError
-        for figures in _figures(result).values():
-            slower(figures["total"], figures["trace"], 0)
+        for row in _rows(result).values():
+            slower(row["figures"]["total"], row["figures"]["trace"], 0)
+            str.join(" ", [row["scene"]["path"], row["key"]])
         return result
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         raise ValueError(f"{path}: is not a result of mirrorball bench; write one with 'bench --json FILE'") from None

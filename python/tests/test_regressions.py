@@ -13,7 +13,8 @@ from mirrorball.regressions import slower
 
 
 def result(**seconds):
-    rows = [{"key": key, "figures": {"total": {"median": 2 * one, "mad": 0}, "trace": {"median": one, "mad": 0}}}
+    rows = [{"key": f"hash {key}", "scene": {"path": "a.json"},
+             "figures": {"total": {"median": 2 * one, "mad": 0}, "trace": {"median": one, "mad": 0}}}
             for key, one in seconds.items()]
     return {"format": "mirrorball-bench", "version": 1, "rows": [*rows, {"key": "wrong", "figures": None}]}
 
@@ -37,7 +38,8 @@ def test_slower_means_beyond_the_share_and_beyond_the_noise(median, mad, expecte
 
 def test_slower_rows_are_named(compare):
     found = compare(result(a=1, b=1), result(a=1.1, b=1.04, c=9))
-    assert (found.returncode, found.stdout.count("\n")) == (1, 1) and found.stdout.startswith("slower: a: total 2.2")
+    assert (found.returncode, found.stdout.count("\n")) == (1, 1)
+    assert found.stdout.startswith("slower: a.json a: total 2.2")
     assert compare(result(a=1, b=1), result(a=1.1, b=1.04), "--max-regress", "20%").returncode == 0
     assert compare(result(a=1), result(a=1), "--max-regress", "fast").returncode == 2
 
