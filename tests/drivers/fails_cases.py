@@ -39,6 +39,16 @@ class Fails(WrongDriver):
         self.assertGreater(finished[5], 0)
         self.assertGreater(finished[6], finished[5])
 
+    def test_rays_that_it_had_counted_are_not_in_the_sum(self):
+        picture = ["--aa", "grid:16", "--tile", "100x10", "--threads", "1"]
+        shim = {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "error", "CL_SHIM_DIE_AT": "6",
+                "CL_SHIM_DIE_AFTER": "0.3"}  # rays are counted every 0.2 s
+        got, right = self.figures(shim, "pocl", *picture), self.figures({}, "threads", *picture)
+        device, threads = got["devices"]
+        self.assertGreater(device["pixels"], 0)
+        self.assertEqual(got["rays"]["primary"], threads["pixels"] * 16 * 16)
+        self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+
     def test_samples_as_work_items(self):
         self.finished_before([8, 9, 10, 11, 12], "--launch", "sample", *self.TILES)
 
