@@ -57,6 +57,12 @@ using Features = std::bitset<feature_names.size()>;
 inline constexpr Features every_feature{(1u << feature_names.size()) - 1};
 
 /// The names of the switches that are on (used) or off (left out).
-std::vector<std::string> names_of(const Features& features, bool used);
+inline std::vector<std::string> names_of(const Features& features, bool used) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+        if (features[i] == used) names.emplace_back(feature_names[i].name);
+    }
+    return names;
+}
 
 }  // namespace rt
