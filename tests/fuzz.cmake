@@ -7,7 +7,7 @@ function(add_fuzz_target NAME LIBRARY)
     target_link_libraries(${NAME} PRIVATE ${LIBRARY})
     set(corpus ${CMAKE_BINARY_DIR}/corpus/${NAME})
     file(MAKE_DIRECTORY ${corpus})
-    add_test(NAME ${NAME} COMMAND ${NAME} -seed=1 -max_total_time=5 -timeout=100 -rss_limit_mb=4096
+    add_test(NAME ${NAME} COMMAND ${NAME} -seed=1 -max_total_time=3 -timeout=100 -rss_limit_mb=4096
         ${corpus} ${ARGN})
     set_tests_properties(${NAME} PROPERTIES LABELS fuzz)
     add_dependencies(fuzz_targets ${NAME})
