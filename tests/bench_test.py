@@ -204,6 +204,22 @@ class Converge(FiguresTest):
         self.assertEqual(*rmse)
         run(*command, "--size", "8", "--reference", path, code=2)  # given twice
         run(*[word.replace("16x12", "8") for word in command], "--reference", path, code=3)
+        run(*command, "--reference", os.path.join(CACHE.name, "kept.png"), code=2)
+
+    def test_a_reference_that_is_kept_knows_its_error_and_its_scene(self):
+        """An EXR does; a PFM holds no text."""
+        path = os.path.join(CACHE.name, "kept.exr")
+        command = ["converge", SCENE, "--size", "16x12", "--reference-samples", "16", "-q", "--aa", "none",
+                   "--devices", "threads:1", "--precision", "float", "--reference", path]
+        first, again = (json.loads(run(*command, "--json").stdout)["reference"] for _ in range(2))
+        self.assertEqual(again, {"file": path, **first})
+        self.assertIn("reference: mean of sobol:16 seed 1 and sobol:16 seed 2", run(*command).stdout)
+        glass = str(ROOT / "scenes" / "glass.json")
+        for other in [[*command[:1], glass, *command[2:]], [*command, "--max-bounces", "9"]]:
+            self.assertIn("the reference of another scene", run(*other, code=3).stderr)
+        pfm = [*command[:-1], os.path.join(CACHE.name, "unknown.pfm")]
+        run(*pfm)
+        self.assertIn("whose own error is unknown", run(*pfm).stdout)
 
     def test_points(self):
         for point, (_, rmse) in zip(self.points, self.costs()):

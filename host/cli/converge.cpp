@@ -22,7 +22,14 @@ struct ConvergeCall : ConvergeOptions {
 
 int run_converge(const ConvergeCall& options) {
     options.results.check({}, {options.reference});
-    if (!options.reference.empty()) check_picture_path(options.reference);
+    if (!options.reference.empty()) {
+        const PictureFormat format = picture_format_of_name(options.reference);
+        if (format != PictureFormat::exr && format != PictureFormat::pfm) {
+            usage_error("--reference {}: rounds colors; name an EXR or PFM file",
+                        options.reference);
+        }
+        check_picture_path(options.reference);
+    }
     start_fresh_pocl_cache();
     const ConvergeResult result = measure_converge(options);
     if (!options.results.take_stdout()) print_result(converge_text(result));

@@ -21,17 +21,10 @@ namespace rt {
 
 namespace {
 
-/// The text of that name; empty if there is none.
-std::string text_in(const PictureMetadata& metadata, const std::string& name) {
-    for (const auto& [key, text] : metadata) {
-        if (key == name) return text;
-    }
-    return "";
-}
-
 /// Whether both name the same scene and settings.
 bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
-    for (const char* name : {"mirrorball:SceneHash", "mirrorball:Settings"}) {
+    for (const char* name :
+         {"mirrorball:SceneHash", "mirrorball:Settings", "mirrorball:Encoding"}) {
         if (text_in(a, name) != text_in(b, name)) return false;
     }
     return true;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,12 @@ inline bool have_same_shape(const Picture& a, const Picture& b) {
 
 /// What a picture file says about itself: (name, text) pairs.
 using PictureMetadata = std::vector<std::pair<std::string, std::string>>;
+
+/// The text of that name; empty if there is none.
+inline std::string text_in(const PictureMetadata& metadata, std::string_view name) {
+    const auto found = std::ranges::find(metadata, name, &PictureMetadata::value_type::first);
+    return found == metadata.end() ? "" : found->second;
+}
 
 struct PictureFile {
     Picture picture;

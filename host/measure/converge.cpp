@@ -191,10 +191,10 @@ struct ConvergedPicture {
     bool complete = true;  ///< false when a signal stopped it
 };
 
-std::uint64_t hash_of(const Picture& picture) {
+std::string hash_of(const Picture& picture) {
     Hasher hasher;
     hasher.add_bytes(std::as_bytes(std::span(picture.pixels)));
-    return hasher.value();
+    return hash_text(hasher.value());
 }
 
 void check_reference(const Picture& picture, const std::string& name) {
@@ -205,10 +205,32 @@ void check_reference(const Picture& picture, const std::string& name) {
     }
 }
 
+constexpr const char* scene_key = "mirrorball:SceneHash";
+constexpr const char* reference_key = "mirrorball:Reference";  ///< ConvergeReference as JSON
+
+/// What an EXR that is kept says of itself; a PFM holds no text.
+ConvergeReference read_about(const Scene& scene, const std::string& path,
+                             const PictureMetadata& metadata) {
+    ConvergeReference about;
+    const std::string text = text_in(metadata, reference_key);
+    about.max_bounces = scene.max_bounces;
+    if (!text.empty()) read_json(Json::parse(text, nullptr, false), about);
+    const std::string hash = text_in(metadata, scene_key);
+    if ((!hash.empty() && hash != hash_text(scene_hash(scene))) ||
+        about.max_bounces != scene.max_bounces) {
+        throw Error(ExitCode::input, path +
+                                         ": the reference of another scene, or with other "
+                                         "bounces; name another file");
+    }
+    about.file = path;
+    return about;
+}
+
 /// --reference: a picture rendered before.
 ConvergedPicture kept_picture(const Scene& scene, const std::string& path) {
     ConvergedPicture kept;
-    kept.picture = read_picture(path);
+    auto [picture, metadata] = read_picture_file(path);
+    kept.picture = std::move(picture);
     check_reference(kept.picture, path);
     if (kept.picture.width != scene.width || kept.picture.height != scene.height ||
         kept.picture.channels != 3) {
@@ -216,8 +238,7 @@ ConvergedPicture kept_picture(const Scene& scene, const std::string& path) {
                     fmt::format("{}: not {}x{} pixels of 3 channels; render it at the same --size",
                                 path, scene.width, scene.height));
     }
-    kept.about.file = path;
-    kept.about.hash_a = hash_of(kept.picture);
+    kept.about = read_about(scene, path, metadata);
     return kept;
 }
 
@@ -260,17 +281,18 @@ ConvergedPicture converged_picture(const Scene& scene, const ConvergeOptions& op
     check_reference(a.picture, "the reference");
     check_reference(b.picture, "the reference");
     ConvergeReference& about = converged.about;
-    about.aa_a = fmt::format("sobol:{} seed 1", options.reference_samples);
-    about.aa_b = fmt::format("sobol:{} seed 2", options.reference_samples);
+    about.halves = {fmt::format("sobol:{} seed 1", options.reference_samples),
+                    fmt::format("sobol:{} seed 2", options.reference_samples)};
+    about.hashes = {hash_of(a.picture), hash_of(b.picture)};
     about.max_bounces = scene.max_bounces;
-    about.hash_a = hash_of(a.picture);
-    about.hash_b = hash_of(b.picture);
     about.halves_rmse = image_error(clamped(a.picture), clamped(b.picture)).rmse;
     converged.picture = mean_of(a.picture, b.picture);
-    if (!options.reference.empty()) {
-        write_picture(options.reference, converged.picture, Encoding::display);
-    }
     about.seconds = watch.seconds();
+    if (!options.reference.empty()) {
+        const PictureMetadata metadata{{scene_key, hash_text(scene_hash(scene))},
+                                       {reference_key, json_of(about).dump()}};
+        write_picture(options.reference, converged.picture, Encoding::display, metadata);
+    }
     return converged;
 }
 

@@ -67,12 +67,12 @@ void describe(A& a, X& x) {
 
 /// The converged picture: the mean of two independent halves, in double with strict arithmetic.
 struct ConvergeReference {
-    std::string aa_a, aa_b;  ///< how the halves were sampled
+    std::vector<std::string> halves;  ///< how they were sampled; none: unknown
+    std::vector<std::string> hashes;  ///< of the halves' bytes as float
     int max_bounces = 0;
-    std::uint64_t hash_a = 0, hash_b = 0;  ///< of the halves' bytes as float
-    double halves_rmse = 0;                ///< between the halves, clamped to [0,1]
-    double seconds = 0;                    ///< to render the halves
-    std::string file;                      ///< --reference; then there are no halves
+    double halves_rmse = 0;  ///< between the halves, clamped to [0,1]
+    double seconds = 0;      ///< to render the halves
+    std::string file;        ///< --reference, if it was read from there
 
     /// The reference's own RMSE, estimated: errors of independent halves add in quadrature, so
     /// their mean is off by half their difference. Below it, nothing can be said about a picture.
@@ -81,9 +81,9 @@ struct ConvergeReference {
 
 template <typename A, Of<ConvergeReference> X>
 void describe(A& a, X& x) {
-    a("file", unless_empty(x.file), "of --reference; there are then no halves");
-    a("halves", std::vector{x.aa_a, x.aa_b}, "how each half was sampled");
-    a("hashes", std::vector{hash_text(x.hash_a), hash_text(x.hash_b)}, "of the halves as float");
+    a("file", unless_empty(x.file), "of --reference, if it was read from there");
+    a("halves", x.halves, "how each half was sampled; none: unknown");
+    a("hashes", x.hashes, "of the halves as float");
     a("precision", Precision::float64, "of the arithmetic");
     a("max_bounces", x.max_bounces, "mirror and refracted rays after the eye ray");
     a("halves_rmse", x.halves_rmse, "between the halves, clamped to 0..1");

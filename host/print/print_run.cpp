@@ -219,6 +219,21 @@ std::string bench_text(const BenchResult& result) {
 
 namespace {
 
+std::string reference_text(const ConvergeReference& reference) {
+    if (reference.halves.empty()) {
+        return reference.file.empty() ? "reference: not finished\n\n"
+                                      : fmt::format(
+                                            "reference: {}, whose own error is unknown; "
+                                            "values clamped to [0,1]\n\n",
+                                            printable(reference.file));
+    }
+    return fmt::format(
+        "reference: mean of {} in double, {} bounces\n"
+        "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
+        fmt::join(reference.halves, " and "), reference.max_bounces, reference.halves_rmse,
+        reference.floor());
+}
+
 /// "0 PoCL (AMD EPYC 7763)"
 std::string device_text(const std::string& device, const std::string& name) {
     return name == "threads" ? device : device + " " + short_device_name(name);
@@ -315,15 +330,10 @@ std::string targets_text(const ConvergeResult& result) {
 }  // namespace
 
 std::string converge_text(const ConvergeResult& result) {
-    const ConvergeReference& reference = result.reference;
     std::string text = fmt::format(
-        "{}\n{}x{}, {}; other load {:.2f}\n"
-        "reference: mean of {} and {} in double, {} bounces\n"
-        "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
-        printable(result.scene.path), result.width, result.height,
-        rounds_text(result.points, result.repeats_asked, result.interrupted), result.load_before,
-        reference.aa_a, reference.aa_b, reference.max_bounces, reference.halves_rmse,
-        reference.floor());
+        "{}\n{}x{}, {}; other load {:.2f}\n{}", printable(result.scene.path), result.width,
+        result.height, rounds_text(result.points, result.repeats_asked, result.interrupted),
+        result.load_before, reference_text(result.reference));
     if (const std::string busy = busy_text(result.load_before); !busy.empty()) {
         text.insert(0, busy + "\n\n");
     }
