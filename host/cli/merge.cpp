@@ -36,8 +36,9 @@ std::string missing_text(const MergedPicture& merged) {
 
 void write_merged(const MergedPicture& merged, const MergeOptions& options) {
     const JournalHeader& header = merged.header;
-    PictureMetadata metadata = picture_metadata(
-        header.scene, header.scene_hash, to_string(header.picture), hash_text(merged.image_hash));
+    PictureMetadata metadata =
+        picture_metadata(header.scene, header.scene_hash, to_string(header.picture),
+                         hash_text(merged.image_hash), options.encoding);
     if (merged.missing) {
         metadata.emplace_back(partial_mark,
                               fmt::format("without shares {}", to_string(*merged.missing)));

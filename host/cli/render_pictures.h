@@ -17,10 +17,11 @@ inline constexpr const char* partial_mark = "mirrorball:Partial";
 
 /// Metadata of a picture, without anything that varies from run to run or device to device.
 PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
-                                 const std::string& settings, const std::string& image_hash);
+                                 const std::string& settings, const std::string& image_hash,
+                                 Encoding encoding);
 
 /// Whether a picture that exists is the one to be rendered, as far as its metadata tell.
-bool may_show(const std::string& path, const Scene& scene, const RenderSettings& settings);
+bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options);
 
 /// Notes that `count` pixels of a picture of that region are not finite, if any. Returns whether
 /// any are.

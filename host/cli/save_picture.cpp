@@ -53,10 +53,13 @@ std::string share_done(const RenderStats& stats) {
 }  // namespace
 
 PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
-                                 const std::string& settings, const std::string& image_hash) {
+                                 const std::string& settings, const std::string& image_hash,
+                                 Encoding encoding) {
     return {{"mirrorball:Scene", scene},
             {"mirrorball:SceneHash", scene_hash},
             {"mirrorball:Settings", settings},
+            {"mirrorball:Encoding",
+             encoding == Encoding::display ? "" : std::string(name_of(encoding_names, encoding))},
             {"mirrorball:ImageHash", image_hash},
             {"mirrorball:Version", version}};
 }
@@ -67,9 +70,9 @@ bool may_show(const std::string& path, const Scene& scene, const RenderSettings&
     try {
         const PictureMetadata found = read_picture_header(path).metadata;
         return text_in(found, "mirrorball:SceneHash").empty() ||
-               shows_the_same(found,
-                              picture_metadata(scene.name, hash_text(scene_hash(scene)),
-                                               to_string(picture_spec(scene, settings)), ""));
+               shows_the_same(found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
+                                                      to_string(picture_spec(scene, options)), "",
+                                                      options.encoding));
     } catch (const Error&) {
         return false;
     }
@@ -90,7 +93,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     const RenderStats& stats = rendered.stats;
     PictureMetadata metadata =
         picture_metadata(stats.scene.name, hash_text(stats.scene.hash), to_string(stats.picture),
-                         hash_text(stats.image_hash));
+                         hash_text(stats.image_hash), options.encoding);
     if (stats.estimate) {
         metadata.push_back({"mirrorball:EstimatedError", to_string(*stats.estimate)});
     }
