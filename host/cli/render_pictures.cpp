@@ -251,7 +251,13 @@ class Pictures {
         } else if (!options.output.empty()) {
             check_picture_path(options.output, options.format);
         }
+        check_inputs(options);
+    }
+
+    /// Rejects outputs that are inputs.
+    void check_inputs(const RenderOptions& options) const {
         inputs_.check(options.output);
+        inputs_.check(partial_path(options.output));
         check_aov_files(options, inputs_);
     }
 
@@ -272,8 +278,7 @@ class Pictures {
     void load_afresh(const RenderOptions& options) {
         scene_ = load_scene(options.scene, options.light);
         for (const std::string& file : scene_.model_files) inputs_.add(file);
-        inputs_.check(options.output);
-        check_aov_files(options, inputs_);
+        check_inputs(options);
         apply_overrides(scene_, options);
         if (!options.quiet) {
             print_notes(scene_.notes);

@@ -45,6 +45,17 @@ void remove_partial(const std::string& output, const PictureMetadata& metadata) 
     }
 }
 
+/// Whether an unfinished picture may go there: where nothing is, or what says that it is
+/// unfinished. Only PNG and EXR can say so.
+bool may_replace(const std::string& path) try {
+    const auto format = known_picture_format(path);
+    const bool can_say = format == PictureFormat::png || format == PictureFormat::exr;
+    return !std::filesystem::exists(path) ||
+           (can_say && !text_in(read_picture_header(path).metadata, partial_mark).empty());
+} catch (const Error&) {
+    return false;
+}
+
 /// How much of a stopped picture is done.
 std::string share_done(const RenderStats& stats) {
     return fmt::format("{} of {} tiles", stats.tiles_finished, stats.tiles);
@@ -107,6 +118,10 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         if (stats.tiles_finished == 0 && stats.resumed == 0) return "";
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
         path = partial_path(path);
+        if (!may_replace(path)) {
+            print_note(path + ": exists and is not an unfinished picture; saving nothing there");
+            return "";
+        }
         metadata.emplace_back(partial_mark, share_done(stats));
     }
     const StopsAtOnce may_wait_for_a_reader(find_output_destination(path).in_place);

@@ -90,11 +90,27 @@ class Interrupted(CliTest):
         self.assertEqual((self.folder / "out.png").read_text(), "finished yesterday")
         self.assertEqual(self.pictures(), ["out.partial.png", "out.png"])
 
-    def test_an_unfinished_picture_takes_the_place_of_another(self):
-        self.write_text("out.partial.pfm", "unfinished")
-        self.assertIn("the finished part is in out.partial.pfm", self.interrupted("out.pfm"))
-        self.assertEqual(self.pictures(), ["out.partial.pfm"])
-        self.assertNotEqual((self.folder / "out.partial.pfm").read_bytes(), b"unfinished")
+    def test_an_unfinished_picture_takes_the_place_of_another_and_of_nothing_else(self):
+        for output in ["out.png", "out.exr", "out.pfm"]:
+            partial = output.replace(".", ".partial.")
+            self.write_text(partial, "mine")
+            self.interrupted(output)
+            self.assertEqual(self.bytes_of(partial), b"mine")
+        self.remove_all()
+        self.interrupted("out.png")
+        first = self.bytes_of("out.partial.png")
+        self.render("single-sphere", "--size", "8", "-o", "out.partial.png")
+        finished = self.bytes_of("out.partial.png")
+        self.interrupted("out.png")
+        self.assertEqual(self.bytes_of("out.partial.png"), finished)
+        (self.folder / "out.partial.png").write_bytes(first)
+        self.assertIn("the finished part is in out.partial.png", self.interrupted("out.png"))
+        self.assertEqual(self.pictures(), ["out.partial.png"])
+
+    def test_an_unfinished_picture_never_takes_the_place_of_an_input(self):
+        self.render("single-sphere", "--size", "8", "-o", "out.partial.png")
+        self.assert_refused(self.run_cli("render", scene_path("single-sphere"), "--size", "8", "-o", "out.png",
+                                         "--reference", "out.partial.png"), 2, "out.partial.png")
 
     def test_as_terminals_and_timeout_send_it(self):
         """To the program and its worker process; to the program, and at once to its group."""
