@@ -140,6 +140,18 @@ class Bench(FiguresTest):
         self.assertIn("choose another name", run("bench", "--json=" + SCENE, code=2).stderr)
         self.assertEqual(pathlib.Path(SCENE).read_bytes(), before)
 
+    def test_numbers_that_are_not_finite_have_their_exit_code(self):
+        scene = json.loads(pathlib.Path(SCENE).read_text(encoding="utf-8"))
+        scene["ambient_light"] = 1e30
+        for material in scene["materials"].values():
+            material["ambient"] = 1e6
+            material["mirror"] = 1e6
+        path = pathlib.Path(CACHE.name, "hot.json")
+        path.write_text(json.dumps(scene), encoding="utf-8")
+        result = run("bench", path, "--sizes", "8", "--aa", "none", "--devices", "threads:1", "--precision", "float",
+                     "--schedules", "tiles", code=6)
+        self.assertIn("not finite", result.stderr)
+
     def test_wrong_usage(self):
         for options in [["--aa", "none,mush"], ["--sizes", "0"], ["--devices", "threads:0"],
                         ["--json", "--csv"], ["--schedules", "x"]]:

@@ -75,7 +75,7 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
             {"mirrorball:Version", version}};
 }
 
-bool may_show(const std::string& path, const Scene& scene, const RenderSettings& settings) {
+bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) {
     const auto format = known_picture_format(path);
     if (format != PictureFormat::png && format != PictureFormat::exr) return true;
     try {
@@ -145,6 +145,7 @@ int verdict(const RenderedPicture& rendered, const RenderOptions& options,
                                     can_go_on ? "; the same command resumes from there" : ""));
         return exit_code_of_stop(stop_flag());
     }
+    if (non_finite) return static_cast<int>(ExitCode::non_finite);
     if (!stats.estimate && (options.estimate || options.target_rmse > 0)) {
         notes.push_back(stop_reason() + " before the picture's error was estimated");
         return exit_code_of_stop(stop_flag());
@@ -158,7 +159,7 @@ int verdict(const RenderedPicture& rendered, const RenderOptions& options,
         return stop_flag() != 0 ? exit_code_of_stop(stop_flag())
                                 : static_cast<int>(ExitCode::incomplete);
     }
-    return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);
+    return static_cast<int>(ExitCode::done);
 }
 
 }  // namespace rt

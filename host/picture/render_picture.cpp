@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <optional>
 #include <utility>
@@ -97,7 +98,10 @@ class Job {
             render_by(devices);
         }
         if (stats_.complete()) check_again(devices);
-        if (stats_.complete() && settings_.estimate) estimate(devices);
+        const auto is_finite = [](T value) { return std::isfinite(value); };
+        if (stats_.complete() && settings_.estimate && std::ranges::all_of(film_.rgb, is_finite)) {
+            estimate(devices);
+        }
         journal_->end(stats_.complete());
         stats_.phases.renderer.open += wait_seconds;
         return finished_picture();
@@ -260,6 +264,7 @@ class Job {
         stats_.estimate = control_.pixels->estimate_of(film_);
         if (target > 0 && !is_finer && !stats_.estimate->reaches(target)) {
             control_.finer = estimator.mode_to_reach(target, picture_.aa, *control_.pixels);
+            if (control_.finer == picture_.aa) control_.finer.reset();  // none is
         }
         stats_.estimate->target = target;
         stats_.estimate->seconds = watch.seconds();

@@ -51,13 +51,15 @@ std::string rounds_text(const std::vector<Row>& rows, int asked, bool interrupte
 /// the exit status of what measured them.
 template <typename Row, typename Name>
 int report_bad_rows(const std::vector<Row>& rows, bool interrupted, const Name& name) {
-    bool wrong = false, failed = false;
+    bool wrong = false, failed = false, finite = true;
     for (const Row& row : rows) {
         if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
         (row.verdict == Verdict::wrong ? wrong : failed) = true;
+        for (const RenderStats& run : row.warm_up) finite = finite && run.non_finite == 0;
         print_note(fmt::format("{}: {}: {}", name(row.asked), to_string(row.verdict), row.why));
     }
     if (interrupted) return 128 + stop_flag();
+    if (!finite) return static_cast<int>(ExitCode::non_finite);
     if (wrong) return static_cast<int>(ExitCode::different);
     return static_cast<int>(failed ? ExitCode::device : ExitCode::done);
 }

@@ -95,6 +95,9 @@ class Target(CliTest):
         self.assertEqual(result.returncode, 8)
         self.assertRegex(result.stderr, "with grid:64, not the target of 1e-05: no mode has more")
         self.assertEqual(self.files(), ["out.png"])
+        result = self.run_cli("render", scene_path("glass"), "--size", "32", "--target-rmse", "1e-5")
+        self.assertEqual(result.returncode, 8)
+        self.assertNotIn("rendering again", result.stderr)
 
     def test_out_of_time_keeps_the_first_picture(self):
         result = self.run_cli("render", scene_path("glass"), "--size", "120", "--aa", "sobol:4",

@@ -125,6 +125,12 @@ class NotFinite(CliTest):
         rows, columns, _ = (~numpy.isfinite(read_pfm(self.folder / "out.pfm"))).nonzero()
         self.assertIn(f" {columns[0]},{rows[0]}", message)
 
+    def test_has_no_estimate(self):
+        self.assert_reported("--estimate", "--device", "threads")
+        result = self.run_cli("render", self.scene, "--size", "9", "--target-rmse", "1e-2")
+        self.assertEqual(result.returncode, 6, result.stderr)
+        self.assertNotIn("no error found", result.stderr)
+
     def test_on_every_device(self):
         for options in [["threads"], ["pocl"], ["threads", "--precision", "double"]]:  # its float file overflows
             self.assert_reported("--device", *options)
