@@ -83,5 +83,9 @@ class Doctor(CliTest):
 
     def test_tests_one_device(self):
         for spec in ["threads", "pocl"]:
-            self.assertEqual(self.run_cli("doctor", "--device", spec).returncode, 0)
-        self.assert_refused(self.run_cli("doctor", "--device", "17"), 5, "17", lines=2)
+            self.assertIn(f"{spec}: renders the right picture", self.output("doctor", "--device", spec))
+        finding, = json.loads(self.output("doctor", "--device", "threads", "--json"))["findings"]
+        self.assertEqual((finding["state"], finding["what"]), ("ok", "threads"))
+        result = self.run_cli("doctor", "--device", "17")
+        self.assertEqual(result.returncode, 5)
+        self.assertIn("'17' matches no OpenCL device", result.stdout + result.stderr)
