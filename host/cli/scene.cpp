@@ -134,6 +134,7 @@ std::string verdict_text(std::size_t warnings) {
 
 int check_scene(const SceneOptions& options) {
     std::string mistakes;
+    ExitCode code = ExitCode::done;
     std::vector<std::string> notes, warnings;
     try {
         const Scene scene = load_scene(options.scene, options.light);
@@ -141,7 +142,8 @@ int check_scene(const SceneOptions& options) {
         notes = scene.notes;
         warnings = scene_warnings(scene);
     } catch (const Error& error) {
-        if (!options.json || error.exit_code() != ExitCode::input) throw;
+        code = error.exit_code();
+        if (!options.json || (code != ExitCode::input && code != ExitCode::limit)) throw;
         mistakes = error.what();
     }
     print_result(options.json ? json_text(check_json(options.scene, mistakes, notes, warnings))
@@ -150,7 +152,7 @@ int check_scene(const SceneOptions& options) {
         print_notes(notes);
         print_warnings(options.scene, warnings);
     }
-    return static_cast<int>(mistakes.empty() ? ExitCode::done : ExitCode::input);
+    return static_cast<int>(code);
 }
 
 using RunScene = int (*)(const SceneOptions&);

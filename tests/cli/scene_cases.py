@@ -135,6 +135,14 @@ class Models(CliTest):
             self.assertEqual(sum(f"{path}:" in line for line in result.stderr.splitlines()), count)
         self.assertEqual(len(json.loads(self.output("scene", "check", path, "--json"))["notes"]), 3)
 
+    def test_checks_of_what_is_over_a_limit_are_json_too(self):
+        path = self.write_scene(max_bounces=17, lights=[{"position": [0, 0, 9]}],
+                                materials={"m": {"mirror": 0.5, "transmission": 0.5}},
+                                spheres=[{"center": [0, 0, 0], "radius": 0.5, "material": "m"}])
+        result = self.run_cli("scene", "check", path, "--json")
+        self.assertEqual(result.returncode, 7)
+        self.assertIn("max_bounces is 17", json.loads(result.stdout)["mistakes"][0])
+
     def test_bench_says_what_is_left_out(self):
         path = self.write_text("A.OBJ", TRIANGLE + "f 1 1 2\n")
         result = self.succeed("bench", path, "--devices", "threads", "--threads", "1", "--sizes", "8",
