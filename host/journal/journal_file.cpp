@@ -180,7 +180,7 @@ template <typename T>
 void JournalKeeper<T>::keep(const std::stop_token& stop) {
     const auto is_over = [&stop] { return stop.stop_requested(); };
     std::unique_lock lock(mutex_);
-    while (!stopped_.wait_for(lock, stop, period, is_over)) {
+    do {
         lock.unlock();
         std::exception_ptr failure;
         try {
@@ -193,8 +193,7 @@ void JournalKeeper<T>::keep(const std::stop_token& stop) {
         }
         lock.lock();
         failure_ = failure;
-        if (failure_) return;
-    }
+    } while (!failure_ && !stopped_.wait_for(lock, stop, period, is_over));
 }
 
 /// Requires the mutex, or that the thread has ended.
