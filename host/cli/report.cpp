@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <span>
 #include <vector>
@@ -73,6 +74,10 @@ std::string package_folder() {
 
 /// `arguments`: of the verb, which Python reads in the same way.
 int run_report(const ReportOptions& options, std::span<const std::string> arguments) {
+    if (std::ranges::count(options.scenes, stdin_scene) > 0) {
+        usage_error(
+            "report reads its scenes several times, and stdin can be read once; name a file");
+    }
     check_result_path(options.output, page_start);
     std::string path = package_folder();
     ::setenv("PYTHONSAFEPATH", "1", 1);  // no modules from the working folder

@@ -64,7 +64,10 @@ int run_selftest(const SelftestOptions& options) {
         if (!options.quick) check_stress(checks, device.spec(), prefix);
     }
     if (stop_flag() != 0) return 128 + stop_flag();
-    if (checks.list().empty()) usage_error("--filter fits no check");
+    if (checks.list().empty())
+        usage_error(
+            "--filter fits no check{}",
+            devices.size() > 1 ? "; of several devices, names begin with theirs: '0:dot3/*'" : "");
     const double seconds = watch.seconds();
     if (!options.results.take_stdout()) print_result(checks.text(seconds));
     options.results.write("--json", [&] { return checks.json(seconds, checked); });

@@ -89,10 +89,11 @@ std::string family_lines(const StressFamilyResult& family, bool verbose) {
 
 std::string stress_text(const StressResult& result, bool verbose) {
     const auto passed = std::ranges::count_if(result.families, &StressFamilyResult::passed);
-    std::string text =
-        fmt::format("{}: {} of {} families, {:.0f} s{}\n", result.passed() ? "PASS" : "FAIL",
-                    passed, result.families.size() + result.unfinished, result.seconds,
-                    result.interrupted ? ", interrupted" : "");
+    const bool has_failed = passed < std::ssize(result.families) || !result.interrupted;
+    std::string text = fmt::format("{}: {} of {} families, {:.0f} s{}\n",
+                                   result.passed() ? "PASS" : (has_failed ? "FAIL" : "STOPPED"),
+                                   passed, result.families.size() + result.unfinished,
+                                   result.seconds, result.interrupted ? ", interrupted" : "");
     for (const StressFamilyResult& family : result.families) {
         text += family_lines(family, verbose);
     }

@@ -310,7 +310,7 @@ class StressTest(CliTest):
         names = [family["name"] for family in result["families"]]
         self.assertNotIn(last.split()[1].rstrip(","), names)
         self.assertEqual((result["interrupted"], result["passed"]), (True, False))
-        self.assertRegex(output, rf"FAIL: {len(names)} of \d\d families, .*interrupted")
+        self.assertRegex(output, rf"STOPPED: {len(names)} of \d\d families, .*interrupted")
 
 
 class SettingUp(CliTest):
