@@ -21,24 +21,26 @@ constexpr std::array<Color, 5> viridis{{{0.267f, 0.005f, 0.329f},
                                         {0.369f, 0.789f, 0.383f},
                                         {0.993f, 0.906f, 0.144f}}};
 
-constexpr std::array<std::array<int, 3>, 10> magma{{{0, 0, 4},
-                                                    {24, 15, 61},
-                                                    {68, 15, 118},
-                                                    {114, 31, 129},
-                                                    {158, 47, 127},
-                                                    {205, 64, 113},
-                                                    {241, 96, 93},
-                                                    {253, 150, 104},
-                                                    {254, 202, 141},
-                                                    {252, 253, 191}}};
+/// Of bytes.
+constexpr std::array<Color, 10> magma{{{0, 0, 4},
+                                       {24, 15, 61},
+                                       {68, 15, 118},
+                                       {114, 31, 129},
+                                       {158, 47, 127},
+                                       {205, 64, 113},
+                                       {241, 96, 93},
+                                       {253, 150, 104},
+                                       {254, 202, 141},
+                                       {252, 253, 191}}};
 
-Color viridis_at(float share) {
-    const float place = std::clamp(share, 0.0f, 1.0f) * (viridis.size() - 1);
-    const auto below = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
+/// The color at a share, clamped to 0 to 1, of the way along a map, over `most`.
+Color color_at(std::span<const Color> map, double share, double most) {
+    const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(map.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(place), map.size() - 2);
     Color color;
     for (std::size_t k = 0; k < 3; ++k) {
-        color[k] =
-            std::lerp(viridis[below][k], viridis[below + 1][k], place - static_cast<float>(below));
+        color[k] = static_cast<float>(
+            std::lerp(map[below][k], map[below + 1][k], place - static_cast<double>(below)) / most);
     }
     return color;
 }
@@ -71,10 +73,10 @@ Picture color_numbers(std::span<const float> values, int width, int height, Scal
     const auto [least, most] = range_of(values);
     return colored(width, height, [&, least = least, most = most](std::size_t i) {
         if (values[i] == 0) return Color{};
-        if (most <= least) return viridis_at(0);
-        return viridis_at(scale == Scale::logarithmic
-                              ? std::log(values[i] / least) / std::log(most / least)
-                              : (values[i] - least) / (most - least));
+        const bool is_logarithmic = scale == Scale::logarithmic;
+        const float share = is_logarithmic ? std::log(values[i] / least) / std::log(most / least)
+                                           : (values[i] - least) / (most - least);
+        return color_at(viridis, most > least ? share : 0, 1);
     });
 }
 
@@ -98,17 +100,7 @@ Picture color_ids(std::span<const std::int32_t> ids, int width, int height) {
     });
 }
 
-std::array<float, 3> heat_color(double share) {
-    const double at = std::clamp(share, 0.0, 1.0) * (magma.size() - 1);
-    const std::size_t low = std::min(static_cast<std::size_t>(at), magma.size() - 2);
-    const double rest = at - static_cast<double>(low);
-    std::array<float, 3> color{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double value = magma[low][c] + rest * (magma[low + 1][c] - magma[low][c]);
-        color[c] = static_cast<float>(value / 255);
-    }
-    return color;
-}
+std::array<float, 3> heat_color(double share) { return color_at(magma, share, 255); }
 
 Picture heat_map(const Picture& picture, const Picture& reference, double scale) {
     const auto channels = static_cast<std::size_t>(picture.channels);
