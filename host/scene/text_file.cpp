@@ -144,7 +144,7 @@ FileDescriptor open_text_file(const std::string& path) {
     FileDescriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     if (!file) refuse_open(path, errno);
     const mode_t mode = status_of(file, path).st_mode;
-    if (S_ISDIR(mode)) refuse(path, "is a directory; name a scene file in it");
+    if (S_ISDIR(mode)) refuse(path, "is a directory; name a file in it");
     if (!S_ISREG(mode))
         refuse(path, "is not a regular file; save the scene to a file, or pipe JSON to -");
     return file;
