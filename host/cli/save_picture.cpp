@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,30 +31,27 @@ bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
     return true;
 }
 
-/// Removes what an interrupted render of the same picture left next to it: PNG and EXR have
-/// metadata to tell.
+/// What a picture file says of itself; empty if it cannot be read.
+std::optional<PictureMetadata> metadata_in(const std::string& path) try {
+    return read_picture_header(path).metadata;
+} catch (const Error&) {
+    return std::nullopt;
+}
+
+/// Whether a file says that it is an unfinished picture. Only PNG and EXR can.
+bool is_unfinished(const std::optional<PictureMetadata>& metadata) {
+    return metadata && !text_in(*metadata, partial_mark).empty();
+}
+
+/// Removes what an interrupted render of the same picture left next to it.
 void remove_partial(const std::string& output, const PictureMetadata& metadata) {
     if (output == stdout_path) return;
     const std::string path = partial_path(output);
-    try {
-        const PictureMetadata found = read_picture_header(path).metadata;
-        std::error_code ignored;
-        if (!text_in(found, partial_mark).empty() && shows_the_same(found, metadata)) {
-            std::filesystem::remove(path, ignored);
-        }
-    } catch (const Error&) {  // there is none
+    const auto found = metadata_in(path);
+    std::error_code ignored;
+    if (is_unfinished(found) && shows_the_same(*found, metadata)) {
+        std::filesystem::remove(path, ignored);
     }
-}
-
-/// Whether an unfinished picture may go there: where nothing is, or what says that it is
-/// unfinished. Only PNG and EXR can say so.
-bool may_replace(const std::string& path) try {
-    const auto format = known_picture_format(path);
-    const bool can_say = format == PictureFormat::png || format == PictureFormat::exr;
-    return !std::filesystem::exists(path) ||
-           (can_say && !text_in(read_picture_header(path).metadata, partial_mark).empty());
-} catch (const Error&) {
-    return false;
 }
 
 /// How much of a stopped picture is done.
@@ -78,15 +76,12 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
 bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) {
     const auto format = known_picture_format(path);
     if (format != PictureFormat::png && format != PictureFormat::exr) return true;
-    try {
-        const PictureMetadata found = read_picture_header(path).metadata;
-        return text_in(found, "mirrorball:SceneHash").empty() ||
-               shows_the_same(found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
-                                                      to_string(picture_spec(scene, options)), "",
-                                                      options.encoding));
-    } catch (const Error&) {
-        return false;
-    }
+    const auto found = metadata_in(path);
+    return found &&
+           (text_in(*found, "mirrorball:SceneHash").empty() ||
+            shows_the_same(*found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
+                                                    to_string(picture_spec(scene, options)), "",
+                                                    options.encoding)));
 }
 
 bool note_non_finite(const Picture& picture, const Rect& region, std::size_t count,
@@ -118,7 +113,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         if (stats.tiles_finished == 0 && stats.resumed == 0) return "";
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
         path = partial_path(path);
-        if (!may_replace(path)) {
+        if (std::filesystem::exists(path) && !is_unfinished(metadata_in(path))) {
             print_note(path + ": exists and is not an unfinished picture; saving nothing there");
             return "";
         }
