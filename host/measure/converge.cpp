@@ -214,7 +214,10 @@ ConvergeReference read_about(const Scene& scene, const std::string& path,
     ConvergeReference about;
     const std::string text = text_in(metadata, reference_key);
     about.max_bounces = scene.max_bounces;
-    if (!text.empty()) read_json(Json::parse(text, nullptr, false), about);
+    if (!text.empty()) {
+        record::Reader::read(Json::parse(text, nullptr, false), about,
+                             fmt::format("{}: {}", path, reference_key));
+    }
     const std::string hash = text_in(metadata, scene_key);
     if ((!hash.empty() && hash != hash_text(scene_hash(scene))) ||
         about.max_bounces != scene.max_bounces) {

@@ -230,8 +230,8 @@ std::string reference_text(const ConvergeReference& reference) {
     return fmt::format(
         "reference: mean of {} in double, {} bounces\n"
         "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
-        fmt::join(reference.halves, " and "), reference.max_bounces, reference.halves_rmse,
-        reference.floor());
+        printable(fmt::format("{}", fmt::join(reference.halves, " and "))), reference.max_bounces,
+        reference.halves_rmse, reference.floor());
 }
 
 /// "0 PoCL (AMD EPYC 7763)"
