@@ -67,7 +67,7 @@ class Frames(CliTest):
                 self.frames("--frames", "1-2", output=output)
                 again = ["--frames", "1-2", "--resume"]
                 self.assertIn("skipped 2 existing frames", self.frames(*again, output=output).stderr)
-                for change in [["--size", "16x12"], ["--ambient", "0.5"], ["--encoding", "srgb"],
+                for change in [["--encoding", "srgb"], ["--size", "16x12"], ["--ambient", "0.5"],
                                ["--precision", "double"]]:
                     self.frames("--frames", "1", *change, output=output)
                     result = self.frames(*again, *change, output=output)
