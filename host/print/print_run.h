@@ -55,7 +55,9 @@ int report_bad_rows(const std::vector<Row>& rows, bool interrupted, const Name& 
     for (const Row& row : rows) {
         if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
         (row.verdict == Verdict::wrong ? wrong : failed) = true;
-        for (const RenderStats& run : row.warm_up) finite = finite && run.non_finite == 0;
+        for (const auto* runs : {&row.warm_up, &row.repeats}) {
+            for (const RenderStats& run : *runs) finite = finite && run.non_finite == 0;
+        }
         print_note(fmt::format("{}: {}: {}", name(row.asked), to_string(row.verdict), row.why));
     }
     if (interrupted) return 128 + stop_flag();
