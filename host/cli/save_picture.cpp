@@ -113,8 +113,9 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         if (stats.tiles_finished == 0 && stats.resumed == 0) return "";
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
         path = partial_path(path);
-        if (std::filesystem::exists(path) && !is_unfinished(metadata_in(path))) {
-            print_note(path + ": exists and is not an unfinished picture; saving nothing there");
+        std::error_code unknown;  // then writing it says why
+        if (std::filesystem::exists(path, unknown) && !is_unfinished(metadata_in(path))) {
+            print_note(printable(path) + ": exists and is not an unfinished picture; saving nothing there");
             return "";
         }
         metadata.emplace_back(partial_mark, share_done(stats));
