@@ -24,8 +24,7 @@ namespace {
 
 /// Whether both name the same scene and settings.
 bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
-    for (const char* name :
-         {"mirrorball:SceneHash", "mirrorball:Settings", "mirrorball:Encoding"}) {
+    for (const char* name : {scene_hash_key, "mirrorball:Settings", "mirrorball:Encoding"}) {
         if (text_in(a, name) != text_in(b, name)) return false;
     }
     return true;
@@ -65,7 +64,7 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
                                  const std::string& settings, const std::string& image_hash,
                                  Encoding encoding) {
     return {{"mirrorball:Scene", scene},
-            {"mirrorball:SceneHash", scene_hash},
+            {scene_hash_key, scene_hash},
             {"mirrorball:Settings", settings},
             {"mirrorball:Encoding",
              encoding == Encoding::display ? "" : std::string(name_of(encoding_names, encoding))},
@@ -78,7 +77,7 @@ bool may_show(const std::string& path, const Scene& scene, const RenderOptions& 
     if (format != PictureFormat::png && format != PictureFormat::exr) return true;
     const auto found = metadata_in(path);
     return found &&
-           (text_in(*found, "mirrorball:SceneHash").empty() ||
+           (text_in(*found, scene_hash_key).empty() ||
             shows_the_same(*found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
                                                     to_string(picture_spec(scene, options)), "",
                                                     options.encoding)));
@@ -115,7 +114,8 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         path = partial_path(path);
         std::error_code unknown;  // then writing it says why
         if (std::filesystem::exists(path, unknown) && !is_unfinished(metadata_in(path))) {
-            print_note(printable(path) + ": exists and is not an unfinished picture; saving nothing there");
+            print_note(printable(path) +
+                       ": exists and is not an unfinished picture; saving nothing there");
             return "";
         }
         metadata.emplace_back(partial_mark, share_done(stats));

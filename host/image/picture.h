@@ -26,6 +26,9 @@ inline bool have_same_shape(const Picture& a, const Picture& b) {
 /// What a picture file says about itself: (name, text) pairs.
 using PictureMetadata = std::vector<std::pair<std::string, std::string>>;
 
+/// The name of the text that tells the scene of a picture.
+inline constexpr const char* scene_hash_key = "mirrorball:SceneHash";
+
 /// The text of that name; empty if there is none.
 inline std::string text_in(const PictureMetadata& metadata, std::string_view name) {
     const auto found = std::ranges::find(metadata, name, &PictureMetadata::value_type::first);

@@ -205,7 +205,6 @@ void check_reference(const Picture& picture, const std::string& name) {
     }
 }
 
-constexpr const char* scene_key = "mirrorball:SceneHash";
 constexpr const char* reference_key = "mirrorball:Reference";  ///< ConvergeReference as JSON
 
 /// What an EXR that is kept says of itself; a PFM holds no text.
@@ -218,7 +217,7 @@ ConvergeReference read_about(const Scene& scene, const std::string& path,
         record::Reader::read(Json::parse(text, nullptr, false), about,
                              fmt::format("{}: {}", path, reference_key));
     }
-    const std::string hash = text_in(metadata, scene_key);
+    const std::string hash = text_in(metadata, scene_hash_key);
     if ((!hash.empty() && hash != hash_text(scene_hash(scene))) ||
         about.max_bounces != scene.max_bounces) {
         throw Error(ExitCode::input, path +
@@ -292,7 +291,7 @@ ConvergedPicture converged_picture(const Scene& scene, const ConvergeOptions& op
     converged.picture = mean_of(a.picture, b.picture);
     about.seconds = watch.seconds();
     if (!options.reference.empty()) {
-        const PictureMetadata metadata{{scene_key, hash_text(scene_hash(scene))},
+        const PictureMetadata metadata{{scene_hash_key, hash_text(scene_hash(scene))},
                                        {reference_key, json_of(about).dump()}};
         write_picture(options.reference, converged.picture, Encoding::display, metadata);
     }

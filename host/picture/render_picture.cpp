@@ -264,7 +264,7 @@ class Job {
         stats_.estimate = control_.pixels->estimate_of(film_);
         if (target > 0 && !is_finer && !stats_.estimate->reaches(target)) {
             control_.finer = estimator.mode_to_reach(target, picture_.aa, *control_.pixels);
-            if (control_.finer == picture_.aa) control_.finer.reset();  // none is
+            if (control_.finer == picture_.aa) control_.finer.reset();  // no mode is
         }
         stats_.estimate->target = target;
         stats_.estimate->seconds = watch.seconds();
