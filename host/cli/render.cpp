@@ -92,6 +92,7 @@ std::filesystem::file_time_type journal_time(RenderOptions options) {
 WorkerCommand worker_command(const RenderOptions& options, double seconds_before_main) {
     WorkerCommand command{options.command, "", options.deadline, seconds_before_main};
     if (options.timeout > 0) command.longest = options.timeout + options.deadline;
+    command.told = print_finished;
     return command;
 }
 
@@ -111,7 +112,7 @@ int render_isolated(RenderOptions options, double seconds_before_main) {
     // What the worker has written with --fresh is resumed.
     if (journal_time(options) != journal_before) options.fresh = false;
     if (options.timeout > 0) options.timeout = std::max(options.timeout - watch.seconds(), 0.001);
-    options.batch_past = end.records;
+    if (options.is_batch()) options.batch_past = end.records;
     options.failed_device = name;
     options.device_failure = failure;
     options.device = "threads";

@@ -60,7 +60,7 @@ struct RenderOptions : RenderSettings {
     std::string failed_device;   ///< that threads replace
     std::string device_failure;  ///< how it failed
     std::string drivers;         ///< where OpenCL finds its .icd files
-    /// "N STATUS" for each picture that a worker had finished when its driver failed.
+    /// What a worker told of the pictures of a batch before its driver failed; see print_finished.
     std::vector<std::string> batch_past;
     std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;

@@ -142,16 +142,15 @@ class RenderConsole {
     RenderEvents events_;
 };
 
-/// Prints what options.stats requests: the summary line on stderr, or figures on stdout; as JSON of
-/// a batch, one line per picture.
-void print_results(const RenderStats& stats, const RenderOptions& options) {
+/// What goes to stdout: the figures that options.stats requests; as JSON of a batch, one line per
+/// picture.
+std::string results_text(const RenderStats& stats, const RenderOptions& options) {
     if (options.stats == StatsFormat::json) {
         const Json json = stats_json(stats);
-        return print_result(options.is_batch() ? json.dump() + "\n" : json_text(json));
+        return options.is_batch() ? json.dump() + "\n" : json_text(json);
     }
-    if (options.stats == StatsFormat::text) return print_result(stats_text(stats));
-    if (!options.quiet) print_message(summary_line(stats) + "\n");
-    if (stats.error) print_result(error_line(*stats.error) + "\n");
+    if (options.stats == StatsFormat::text) return stats_text(stats);
+    return stats.error ? error_line(*stats.error) + "\n" : "";
 }
 
 /// Renders a picture while the one before it is written.
@@ -328,15 +327,12 @@ class Pictures {
                                         hash_text(stats.image_hash), hash_text(expected)));
             status = static_cast<int>(ExitCode::different);
         }
-        if (is_batch_) tell_finished(at, status);  // a driver may end this process at any moment
-        try {
-            print_results(stats, options);
-            flush_results();
-        } catch (const Error& error) {
-            throw BatchEnds(error.exit_code(), error.what());
+        if (options.stats == StatsFormat::summary && !options.quiet) {
+            print_message(summary_line(stats) + "\n");
         }
-        if (!write_aovs(scene_, stats, options)) return exit_code_of_stop(stop_flag());
         print_notes(notes);
+        report(at, status, results_text(stats, options));
+        if (!write_aovs(scene_, stats, options)) return exit_code_of_stop(stop_flag());
         return status;
     }
 
@@ -346,15 +342,22 @@ class Pictures {
         attempt(written_, [&] { count(written_, writing_.get()); });
     }
 
-    /// A worker's parent renders what is left if the driver ends the worker.
-    static void tell_finished(std::size_t at, int status) {
-        tell_parent(fmt::format("{} {}", at, status));
+    /// Prints a picture's results. A worker's parent does, since a driver may end the worker at any
+    /// moment: so it knows exactly whose results are printed, and renders what is left.
+    static void report(std::size_t at, int status, const std::string& results) {
+        const std::string record = fmt::format("{} {}\n{}", at, status, results);
+        if (is_worker()) return tell_parent(record);
+        try {
+            print_finished(record);
+        } catch (const Error& error) {
+            throw BatchEnds(error.exit_code(), error.what());
+        }
     }
 
     void note(std::size_t at, const Error& error) {
         const int status = static_cast<int>(error.exit_code());
         print_note(options_.items[at].where + error.what());
-        tell_finished(at, status);
+        report(at, status, "");
         count(at, status);
     }
 
@@ -407,6 +410,11 @@ class Pictures {
 };
 
 }  // namespace
+
+void print_finished(const std::string& record) {
+    print_result(record.substr(record.find('\n') + 1));
+    flush_results();
+}
 
 void choose_journal(RenderOptions& options) {
     if (options.output.empty() || options.target_rmse > 0) return;

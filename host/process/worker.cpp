@@ -48,12 +48,20 @@ constexpr const char* link_name = "MIRRORBALL_WORKER";
 std::atomic<int> link_pipe = -1;
 double link_seconds = 0;
 
+/// Async-signal-safe.
 void send(std::string_view message) {
     while (link_pipe >= 0 && !message.empty()) {
         const ssize_t sent = ::write(link_pipe, message.data(), message.size());
         if (sent < 0 && errno != EINTR) return;
         if (sent > 0) message.remove_prefix(static_cast<std::size_t>(sent));
     }
+}
+
+/// Not in pieces, between which another thread's message could come.
+void send_whole(std::string_view message) {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    send(message);
 }
 
 /// A process and all its descendants, such as a driver's compiler and linker.
@@ -152,7 +160,8 @@ bool has_ended(pid_t process) {
            info.si_pid == process;
 }
 
-void hear(std::string_view message, Watchdog& watchdog, WorkerEnd& end) {
+void hear(std::string_view message, const WorkerCommand& command, Watchdog& watchdog,
+          WorkerEnd& end) {
     const std::string text(message.substr(1));
     switch (message.front()) {
         case is_doing:
@@ -161,6 +170,7 @@ void hear(std::string_view message, Watchdog& watchdog, WorkerEnd& end) {
         case progressed:
             return watchdog.note_progress();
         case told:
+            if (command.told) command.told(text);
             return end.records.push_back(text);
         case ended:
             end.is_regular = true;
@@ -169,7 +179,8 @@ void hear(std::string_view message, Watchdog& watchdog, WorkerEnd& end) {
 }
 
 /// Listens to the worker until it reports its end, is gone, or is killed.
-void listen(int pipe, pid_t process, Watchdog& watchdog, WorkerEnd& end) {
+void listen(int pipe, pid_t process, const WorkerCommand& command, WorkerEnd& end) {
+    Watchdog watchdog(process, command);
     std::string unread;
     while (!end.is_regular) {
         const bool is_gone = has_ended(process);  // its last message is in the pipe by then
@@ -181,7 +192,7 @@ void listen(int pipe, pid_t process, Watchdog& watchdog, WorkerEnd& end) {
             if (got == 0) return;
             if (got > 0) unread.append(bytes, static_cast<std::size_t>(got));
             for (std::size_t zero; (zero = unread.find('\0')) != unread.npos;) {
-                hear(std::string_view(unread).substr(0, zero), watchdog, end);
+                hear(std::string_view(unread).substr(0, zero), command, watchdog, end);
                 unread.erase(0, zero + 1);
             }
         } else if (is_gone) {
@@ -220,8 +231,7 @@ WorkerEnd run_worker(const WorkerCommand& command) {
     theirs = FileDescriptor();
     if (process == 0) return end;
     end.is_started = true;
-    Watchdog watchdog(process, command);
-    listen(ours.number(), process, watchdog, end);
+    listen(ours.number(), process, command, end);
     int wait_status = 0;
     while (::waitpid(process, &wait_status, 0) < 0 && errno == EINTR) {
     }
@@ -262,20 +272,16 @@ bool is_worker() { return link_pipe >= 0; }
 
 double seconds_before_worker() { return link_pipe < 0 ? 0 : link_seconds; }
 
-void watch_worker(const std::string& task) { send(is_doing + task + '\0'); }
+void watch_worker(const std::string& task) { send_whole(is_doing + task + '\0'); }
 
-void tell_parent(const std::string& record) {
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);  // a long one is sent in pieces
-    send(told + record + '\0');
-}
+void tell_parent(const std::string& record) { send_whole(told + record + '\0'); }
 
 /// Sends at most ten messages a second, so that the pipe never fills up.
 void note_worker_progress() {
     static const Stopwatch watch;
     static std::atomic<std::int64_t> last = -1;
     const auto now = static_cast<std::int64_t>(10 * watch.seconds());
-    if (last.exchange(now) != now) send({"p", 2});
+    if (last.exchange(now) != now) send_whole({"p", 2});
 }
 
 void note_worker_end(int status) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct WorkerCommand {
     double deadline = 10;                                      ///< seconds without progress
     double seconds_before = 0;                                 ///< since this process began
     double longest = std::numeric_limits<double>::infinity();  ///< seconds it may take in all
+    std::function<void(const std::string& record)> told{};     ///< called for each record at once
 };
 
 /// How a worker ended.
@@ -34,7 +36,8 @@ struct WorkerEnd {
 /// Runs the program again and waits. Stop signals are forwarded to the worker. While a driver works
 /// there, it counts as hung after `deadline` seconds in which neither it nor its children computed,
 /// or 60 times as many in which they did, without progress. A worker that is hung, or takes longer
-/// than `longest`, is killed with its children.
+/// than `longest`, is killed with its children. Throws what `told` throws: then end this process,
+/// and the worker ends with it.
 WorkerEnd run_worker(const WorkerCommand& command);
 
 /// Ends this process as its worker ended, if a stop signal ended that.
@@ -50,8 +53,8 @@ bool is_worker();
 double seconds_before_worker();
 
 // Called by a worker, no-ops in other processes; all but the first may be called by any thread.
-void watch_worker(const std::string& task);  ///< what a driver does from now on; "": nothing
-void tell_parent(const std::string& record);
+void watch_worker(const std::string& task);   ///< what a driver does from now on; "": nothing
+void tell_parent(const std::string& record);  ///< whole, or not at all
 void note_worker_progress();
 void note_worker_end(int status);  ///< just before it exits; async-signal-safe
 

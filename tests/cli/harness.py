@@ -105,11 +105,11 @@ class CliTest(unittest.TestCase):
                                        SCENE=scene_path("single-sphere"))),
             stdin=subprocess.DEVNULL, timeout=HANG_LIMIT, check=False)
 
-    def start(self, *arguments, env=None, stdin=subprocess.DEVNULL):
+    def start(self, *arguments, env=None, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE):
         """Starts the program and leaves it running; it is killed at the end of the test."""
         process = subprocess.Popen(
             [PROGRAM, *map(str, arguments)], cwd=self.folder, text=True,
-            stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            stdin=stdin, stdout=stdout, stderr=subprocess.PIPE,
             env=clean_environment(env or {}), start_new_session=True)
         self.addCleanup(self._finish, process)
         return process

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A driver ends its process, or hangs, also in the middle of several pictures."""
+import fcntl
 import json
+import os
 import pathlib
 import shutil
+import time
 
 from driver_case import SCENE, WrongDriver
 from harness import POCL_DRIVER, SCENES
@@ -255,6 +258,32 @@ class DiesInABatch(WrongDriver):
         self.assertIn(last, said.splitlines()[-1])
         (self.folder / "list").write_text("".join(scenes))
         self.assertIn(last, self.check(3, "", "--batch", "list", *self.SMALL, by="hang").splitlines()[-1])
+
+    def test_while_results_wait(self):
+        """The pipe for the results is full when the driver ends the process: each comes once all the same."""
+        ours, theirs = os.pipe()
+        os.write(theirs, b"\n" * fcntl.fcntl(theirs, fcntl.F_SETPIPE_SZ, 4096))
+        process = self.start(
+            "render", *self.scenes, *self.SMALL, "--device", "pocl", stdout=theirs, env=self.environment(
+                {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "abort", "CL_SHIM_DIE_AT": "8"}))
+        os.close(theirs)
+        worker = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        has_started = False
+        while not has_started or worker.exists() and any(map(self.runs, worker.read_text().split())):
+            has_started |= bool(worker.read_text())
+            time.sleep(0.05)
+        with open(ours, encoding="utf-8") as results:
+            scenes = [json.loads(line)["scene"]["path"] for line in results.read().split("\n") if line]
+        self.assertEqual(scenes, self.scenes)
+        self.assertEqual(process.wait(), 0)
+
+    @staticmethod
+    def runs(process):
+        """Not a zombie."""
+        try:
+            return "\nState:\tZ" not in pathlib.Path(f"/proc/{process}/status").read_text()
+        except FileNotFoundError:
+            return False
 
     def test_of_frames(self):
         (self.folder / "path.json").write_text(json.dumps({

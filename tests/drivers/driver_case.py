@@ -17,10 +17,14 @@ class WrongDriver(CliTest):
     def run_with(self, shim, *arguments, code=None, text=""):
         """With the shim's settings; a program it does not find its text in ends the process. `code` is the exit
         code expected, if any."""
-        cache = BUILD / "wrong-driver-cache"
-        cache.mkdir(exist_ok=True)
-        result = self.run_cli(*arguments, text=text, env={"LD_PRELOAD": SHIM, "POCL_CACHE_DIR": str(cache), **shim})
+        result = self.run_cli(*arguments, text=text, env=self.environment(shim))
         self.assertNotEqual(result.returncode, 99, result.stderr)
         if code is not None:
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)
         return result
+
+    @staticmethod
+    def environment(shim):
+        cache = BUILD / "wrong-driver-cache"
+        cache.mkdir(exist_ok=True)
+        return {"LD_PRELOAD": SHIM, "POCL_CACHE_DIR": str(cache), **shim}
