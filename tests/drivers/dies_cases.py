@@ -8,7 +8,7 @@ import shutil
 import time
 
 from driver_case import SCENE, WrongDriver
-from harness import POCL_DRIVER, SCENES
+from harness import POCL_DRIVER, SCENES, SHIM
 from measure_cases import BENCH
 from program import run
 
@@ -264,8 +264,9 @@ class DiesInABatch(WrongDriver):
         ours, theirs = os.pipe()
         os.write(theirs, b"\n" * fcntl.fcntl(theirs, fcntl.F_SETPIPE_SZ, 4096))
         process = self.start(
-            "render", *self.scenes, *self.SMALL, "--device", "pocl", stdout=theirs, env=self.environment(
-                {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "abort", "CL_SHIM_DIE_AT": "8"}))
+            "render", *self.scenes, *self.SMALL, "--device", "pocl", stdout=theirs, env={
+                "LD_PRELOAD": SHIM, "CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "abort",
+                "CL_SHIM_DIE_AT": "8"})
         os.close(theirs)
         worker = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
         has_started = False

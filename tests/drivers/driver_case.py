@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs mirrorball with an OpenCL driver that misbehaves (tests/cl_shim.cpp)."""
 from harness import SHIM, CliTest, scene_path
-from program import BUILD
 
 SCENE = scene_path("cornell-box")
 # What a light adds: a little brighter, within every tolerance but that of the bits; or much.
@@ -17,14 +16,8 @@ class WrongDriver(CliTest):
     def run_with(self, shim, *arguments, code=None, text=""):
         """With the shim's settings; a program it does not find its text in ends the process. `code` is the exit
         code expected, if any."""
-        result = self.run_cli(*arguments, text=text, env=self.environment(shim))
+        result = self.run_cli(*arguments, text=text, env={"LD_PRELOAD": SHIM, **shim})
         self.assertNotEqual(result.returncode, 99, result.stderr)
         if code is not None:
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)
         return result
-
-    @staticmethod
-    def environment(shim):
-        cache = BUILD / "wrong-driver-cache"
-        cache.mkdir(exist_ok=True)
-        return {"LD_PRELOAD": SHIM, "POCL_CACHE_DIR": str(cache), **shim}
