@@ -206,6 +206,12 @@ constexpr std::size_t compared_items = 65536;
 
 }  // namespace
 
+void add_input(ProbeRecord& launch, const void* values, std::size_t bytes,
+               std::uint32_t item_bytes) {
+    const auto* const first = static_cast<const std::byte*>(values);
+    launch.inputs.push_back({{first, first + bytes}, item_bytes});
+}
+
 void launch_probe(ProbeRecord& launch) {
     if (is_native_alone()) {
         launch_native(launch, 1);

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <span>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -54,20 +53,23 @@ inline constexpr bool is_integers<f32::RayCounts> = true;
 template <>
 inline constexpr bool is_integers<f64::RayCounts> = true;
 
-template <typename X, typename Allocator>
-void add_inputs(std::vector<ProbeArray>& inputs, const std::vector<X, Allocator>& values,
-                std::uint32_t item_bytes = sizeof(X)) {
-    const auto bytes = std::as_bytes(std::span(values));
-    inputs.push_back({{bytes.begin(), bytes.end()}, item_bytes});
+/// Untyped: a template is compiled for each type, in every test file.
+void add_input(ProbeRecord& launch, const void* values, std::size_t bytes,
+               std::uint32_t item_bytes);
+
+template <typename X>
+void add_inputs(ProbeRecord& launch, const std::vector<X>& values) {
+    add_input(launch, values.data(), values.size() * sizeof(X), sizeof(X));
 }
 
 /// A scene is ten arguments, the PROBE_SCENE of probes.cl.
 template <typename T>
-void add_inputs(std::vector<ProbeArray>& inputs, const FlatScene<T>& scene) {
-#define RT_PROBE_ARRAY(type, name, what) add_inputs(inputs, scene.name, 0);
+void add_inputs(ProbeRecord& launch, const FlatScene<T>& scene) {
+#define RT_PROBE_ARRAY(type, name, what) \
+    add_input(launch, scene.name.data(), scene.name.size() * sizeof(scene.name[0]), 0);
     RT_SCENE_ARRAYS(RT_PROBE_ARRAY)
 #undef RT_PROBE_ARRAY
-    add_inputs(inputs, std::vector{scene.params}, 0);
+    add_input(launch, &scene.params, sizeof(scene.params), 0);
 }
 
 /// Runs probe_FUNCTION in the precision of T over `count` items. Inputs are vectors and scenes; the
@@ -76,7 +78,7 @@ template <typename T, typename... Outs, typename... Ins>
 auto run(const std::string& function, std::size_t count, const Ins&... ins) {
     ProbeRecord launch{
         function, std::is_same_v<T, double>, static_cast<std::uint32_t>(count), {}, {}};
-    (add_inputs(launch.inputs, ins), ...);
+    (add_inputs(launch, ins), ...);
     (launch.outputs.push_back(
          {std::vector<std::byte>(count * sizeof(Outs)), sizeof(Outs), !is_integers<Outs>}),
      ...);
