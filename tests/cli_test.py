@@ -4,9 +4,9 @@
 
 usage: cli_test.py BUILD_DIR REPO_ROOT [I/N] [TEST...]
 
-TEST is a unittest name such as signal_cases or stats_cases.TextStats.test_sections, `calm` or `timed` for those
-that may run next to other tests, or may not, or `drivers`. I/N: only every N-th test, from the I-th, counted
-from 0. Needs python3-matplotlib, for numpy and Pillow, and python3-jsonschema.
+TEST is a unittest name such as signal_cases or stats_cases.TextStats.test_sections, or `cli` or `drivers` for all
+in that folder. I/N: only every N-th test, from the I-th, counted from 0. Needs python3-matplotlib, for numpy and
+Pillow, and python3-jsonschema.
 """
 import pathlib
 import sys
@@ -16,9 +16,7 @@ import program
 
 FOLDERS = [program.ROOT / "tests" / name for name in ["cli", "drivers"]]
 sys.path[:0] = map(str, FOLDERS)
-TIMED = ["stream_cases", "signal_cases"]
-MODULES, DRIVERS = ([path.stem for path in sorted(folder.glob("*_cases.py"))] for folder in FOLDERS)
-GROUPS = {"calm": [name for name in MODULES if name not in TIMED], "timed": TIMED, "drivers": DRIVERS}
+GROUPS = {folder.name: [path.stem for path in sorted(folder.glob("*_cases.py"))] for folder in FOLDERS}
 
 
 def tests_of(suite):

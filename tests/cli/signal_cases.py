@@ -6,6 +6,7 @@ import pathlib
 import re
 import select
 import signal
+import subprocess
 import time
 
 from harness import CliTest, scene_path
@@ -225,13 +226,16 @@ class Interrupted(CliTest):
 
     def test_out_of_time(self):
         for device in ["threads", "pocl"]:
-            self.render("mirror-hall", "--size", "8", "--aa", "grid:32", "--device", device)  # caches
-            result = self.run_cli("render", scene_path("mirror-hall"), "--size", "900", "--aa",
-                                  "grid:32", "--device", device, "--timeout", "1.5", "-o", "out.png")
-            self.assertEqual(result.returncode, 8, result.stderr)
+            for seconds in [1.5, 6, 24]:  # a busy machine takes long to finish a tile
+                result = self.run_cli("render", scene_path("mirror-hall"), "--size", "900", "--aa", "grid:32",
+                                      "--device", device, "--timeout", seconds, "-o", "out.png")
+                self.assertEqual(result.returncode, 8, result.stderr)
+                if self.pictures():
+                    break
             self.assertIn("out of time (--timeout) after", result.stderr)
             self.assertNotIn("again to quit", result.stderr)
             self.assertEqual(self.pictures(), ["out.partial.png"])
+            self.remove_all()
 
     def test_out_of_time_before_it_began(self):
         result = self.run_cli("render", scene_path("mirror-hall"), "--size", "900", "--aa", "grid:32",
@@ -301,14 +305,14 @@ class DoctorTest(CliTest):
 class StressTest(CliTest):
     def test_an_unfinished_family_has_no_verdict(self):
         process = self.start("stress", "--device", "threads", "--json", "s.json")
-        for _ in range(2):
-            last = process.stderr.readline()
+        text = process.stderr.readline() + process.stderr.readline()
         process.send_signal(signal.SIGINT)
-        output, _ = process.communicate(timeout=HANG_LIMIT)
+        output, rest = process.communicate(timeout=HANG_LIMIT)
+        begun = re.findall(r"^mirrorball: ([\w-]+), \d+ cases?$", text + rest, re.M)
         self.assertEqual(process.returncode, 130)
         result = json.loads((self.folder / "s.json").read_text())
         names = [family["name"] for family in result["families"]]
-        self.assertNotIn(last.split()[1].rstrip(","), names)
+        self.assertEqual(names, begun[:-1])
         self.assertEqual((result["interrupted"], result["passed"]), (True, False))
         self.assertRegex(output, rf"STOPPED: {len(names)} of \d\d families, .*interrupted")
 
@@ -317,21 +321,20 @@ class SettingUp(CliTest):
     """Before there is a picture: one line says what happened and that nothing is saved."""
 
     def test_every_stop_signal_says_a_word(self):
-        sphere = {"center": [0, 0, 0], "radius": 1, "material": "gray"}
-        large = self.write_scene(materials={"gray": {}}, spheres=[sphere] * 1500000)  # takes a while to read
         for number, reason in [(signal.SIGINT, "interrupted (Ctrl-C)"),
                                (signal.SIGTERM, "terminated"), (signal.SIGHUP, "hung up"),
                                (signal.SIGXCPU, "CPU time"), (signal.SIGUSR1, "asked to stop")]:
             with self.subTest(number=number):
-                process = self.start("render", large, "-o", "out.png")
-                time.sleep(0.3)
+                process = self.start("render", "-", "-o", "out.png", stdin=subprocess.PIPE)
+                process.stdin.write(" " * 1000000)  # more than a pipe holds: it is being read
                 process.send_signal(number)
-                lines = process.communicate(timeout=HANG_LIMIT)[1].splitlines()
+                process.wait(HANG_LIMIT)
+                lines = process.stderr.read().splitlines()
                 self.assertEqual(len(lines), 1, lines)
                 self.assertIn(reason, lines[0])
                 self.assertIn("nothing is saved", lines[0])
                 self.assertIn(process.returncode, [-number, 128 + number])
-                self.assertEqual(self.files(), ["scene.json"])
+                self.assertEqual(self.files(), [])
 
 
 class Ignored(CliTest):
