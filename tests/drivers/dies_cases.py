@@ -268,10 +268,11 @@ class DiesInABatch(WrongDriver):
                 "LD_PRELOAD": SHIM, "CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "abort",
                 "CL_SHIM_DIE_AT": "8"})
         os.close(theirs)
-        worker = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
-        has_started = False
-        while not has_started or worker.exists() and any(map(self.runs, worker.read_text().split())):
-            has_started |= bool(worker.read_text())
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        for _ in range(200):  # for 10 s, or until the worker has ended
+            workers = children.read_text().split()
+            if workers and not any(map(self.runs, workers)):
+                break
             time.sleep(0.05)
         with open(ours, encoding="utf-8") as results:
             scenes = [json.loads(line)["scene"]["path"] for line in results.read().split("\n") if line]
@@ -283,7 +284,7 @@ class DiesInABatch(WrongDriver):
         """Not a zombie."""
         try:
             return "\nState:\tZ" not in pathlib.Path(f"/proc/{process}/status").read_text()
-        except FileNotFoundError:
+        except OSError:  # it has ended
             return False
 
     def test_of_frames(self):
