@@ -101,7 +101,7 @@ TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
         EXPECT_NE(used.find("RT_DECLARES_BUILTINS"), std::string::npos) << used;
     };
     ProgramOptions options;
-    options.more = "-Werror -cl-opt-disable";  // which takes a third of the time
+    options.more = "-Werror -cl-opt-disable";  // takes half the time
     options.lanes = packet_lanes<float>(0, test_device());
     expect_own_declarations(render_kernels, options);
     options.entries = {true, false, false};

@@ -56,8 +56,9 @@ bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOption
 /// The viewers that the options ask for; null without any. The options must outlive it.
 std::unique_ptr<LivePicture> make_live_picture(const RenderOptions& options);
 
-/// Prints the results, on stdout, in what a worker tells of a picture when it is finished:
-/// "N STATUS", its place among the items and its exit status, a line end, and the results.
+/// Prints the results of a finished picture on stdout. `record` is what a worker tells of it:
+/// "N STATUS", which are its place among the items and its exit status, a line end, and the
+/// results.
 void print_finished(const std::string& record);
 
 /// Renders options.items one after the other: those of a batch on devices that are opened once, and
