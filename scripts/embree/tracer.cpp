@@ -149,7 +149,8 @@ class PacketTracer {
             const Surface surface = surface_at(packet, hits, live);
             const Vec3 light = shade(surface, -packet.dir, live, bounce > 0);
             color = select(live, color + throughput * light, color);
-            if (!flat_.features.mirrors || bounce >= flat_.params.max_bounces) return color;
+            if (!flat_.features[rt::feature::mirrors] || bounce >= flat_.params.max_bounces)
+                return color;
             throughput = throughput * surface.material.mirror;
             live &= ~is_black(throughput);
             if (!any(live)) return color;
