@@ -3,11 +3,12 @@
 """Sources include what they name, themselves or by our own headers.
 
 Several of them are compiled at a time, so that a missing #include would only show where each is compiled
-on its own. Usage: includes_test.py BUILD_DIR REPO_ROOT
+on its own. It also compiles scripts/embree, which no build does. Usage: includes_test.py BUILD_DIR REPO_ROOT
 """
 import functools
 import pathlib
 import re
+import subprocess
 import sys
 import unittest
 
@@ -42,6 +43,12 @@ class IncludesTest(unittest.TestCase):
                         (name + "/").startswith(header + "/") for name in included(file)):
                     missing.append(f"{file}: <{header}>")
         self.assertFalse(missing, "without:\n" + "\n".join(missing))
+
+    def test_the_embree_program_compiles(self):
+        sources = sorted((ROOT / "scripts" / "embree").glob("*.cpp"))
+        self.assertTrue(sources)
+        subprocess.run(["g++", "-std=c++20", "-march=native", "-fsyntax-only", "-Wno-psabi", f"-I{ROOT}", *sources],
+                       check=True)
 
 
 if __name__ == "__main__":

@@ -10,12 +10,16 @@
 #include <immintrin.h>
 #endif
 
-/// Sixteen rays' numbers, one a lane, as vectors of the compiler.
+/// A packet's numbers, one a lane, as vectors of the compiler: as many as the processor's have.
 namespace embree_bench {
 
+#ifdef __AVX512F__
 constexpr int lanes = 16;
-using Reals = float __attribute__((vector_size(64)));
-using Ints = std::int32_t __attribute__((vector_size(64)));  ///< as a mask: -1 or 0 a lane
+#else
+constexpr int lanes = 8;
+#endif
+using Reals = float __attribute__((vector_size(4 * lanes)));
+using Ints = std::int32_t __attribute__((vector_size(4 * lanes)));  ///< as a mask: -1 or 0 a lane
 
 inline Reals reals(float v) { return Reals{} + v; }
 inline Ints ints(std::int32_t v) { return Ints{} + v; }

@@ -18,6 +18,18 @@ namespace {
 
 using FlatScene = rt::FlatScene<float>;
 
+#ifdef __AVX512F__
+using RayPacket = RTCRay16;
+using RayHitPacket = RTCRayHit16;
+constexpr auto intersect = rtcIntersect16;
+constexpr auto occluded = rtcOccluded16;
+#else
+using RayPacket = RTCRay8;
+using RayHitPacket = RTCRayHit8;
+constexpr auto intersect = rtcIntersect8;
+constexpr auto occluded = rtcOccluded8;
+#endif
+
 constexpr int tile_side = 32;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -67,12 +79,12 @@ class Asker {
 
     Hits nearest(Ints live, const Rays& rays, bool after_mirror) {
         alignas(64) std::int32_t valid[lanes];
-        RTCRayHit16 query;
+        RayHitPacket query;
         fill(query.ray, rays);
         stored(ints(-1), query.hit.geomID);
         stored(ints(-1), query.hit.instID[0]);
         stored(live, valid);
-        rtcIntersect16(valid, scene_, context_of(after_mirror), &query);
+        intersect(valid, scene_, context_of(after_mirror), &query);
         Hits hits;
         hits.t = loaded<Reals>(query.ray.tfar);
         hits.normal = {loaded<Reals>(query.hit.Ng_x), loaded<Reals>(query.hit.Ng_y),
@@ -85,10 +97,10 @@ class Asker {
 
     Ints blocked(Ints live, const Rays& rays, bool after_mirror) {
         alignas(64) std::int32_t valid[lanes];
-        RTCRay16 query;
+        RayPacket query;
         fill(query, rays);
         stored(live, valid);
-        rtcOccluded16(valid, scene_, context_of(after_mirror), &query);
+        occluded(valid, scene_, context_of(after_mirror), &query);
         return live & (loaded<Reals>(query.tfar) < 0.0f);
     }
 

@@ -9,7 +9,7 @@
 
 namespace embree_bench {
 
-/// What Embree is told of the rays after a mirror, which it gets in packets of 16, as all others.
+/// What Embree is told of the rays after a mirror, which it gets in packets, as all others.
 /// Eye rays and their shadow rays are coherent.
 enum class MirrorRays { coherent, incoherent };
 
