@@ -69,9 +69,9 @@ TEST(Edges, OpensThePixelsOnASilhouette) {
 }
 
 TEST(Edges, OpensNoPixelsInsideASurface) {
-    Scene scene = flat_world("edges:0.0004");
+    Scene scene = flat_world("edges:0.00025");
     scene.materials[0].diffuse = {0.5, 0.5, 0.5};
-    scene.lights.push_back({{24, 60, 40}, {1, 1, 1}});  // 0.01 from pixel to pixel, no more edges
+    scene.lights.push_back({{24, 60, 40}, {1, 1, 1}});  // 0.005 from pixel to pixel, no more edges
     const glm::dvec3 a{-9, -9, -3}, b{60, -9, 1}, c{60, 60, 5.5}, d{-9, 60, 1.5};  // in a plane
     add_triangle(scene, a, b, c);
     add_triangle(scene, a, c, d);
