@@ -2,7 +2,7 @@
 """The same picture whoever renders it, and sizes at the ends of what is allowed."""
 import json
 
-from harness import CliTest
+from harness import CliTest, scene_path
 from pictures import read_pfm
 
 PATHS = [
@@ -44,6 +44,14 @@ class SameHash(CliTest):
         hashes = {self.hash_of("cornell-box", "--size", "20", *more) for more in [
             [], ["--aa", "none"], ["--max-bounces", "0"], ["--precision", "double"]]}
         self.assertEqual(len(hashes), 4)
+
+    def test_expected_hash(self):
+        right = self.hash_of("cornell-box", "--size", "20")
+        for wanted, code, says in [(right, 0, ""), (right[::-1], 1, f"hash is {right}, expected {right[::-1]}"),
+                                   (right[1:], 2, "expected 16 hexadecimal digits")]:
+            result = self.run_cli("render", scene_path("cornell-box"), "--size", "20", "--expect", wanted)
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertIn(says, result.stderr)
 
     def test_grid_1_is_none(self):
         self.assertEqual(self.hash_of("cornell-box", "--size", "20", "--aa", "none"),

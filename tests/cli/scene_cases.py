@@ -157,6 +157,11 @@ class Models(CliTest):
         self.assertNotEqual(self.hash_of(path, "--light-scale", "0.75"), plain)
 
 
+class Schema(CliTest):
+    def test_is_the_one_that_scenes_name(self):
+        self.assertEqual(self.run_cli("scene", "schema").stdout, (ROOT / "scenes" / "scene.schema.json").read_text())
+
+
 class Check(CliTest):
     def test_all_shipped_scenes_are_fine(self):
         for path in all_scenes():

@@ -159,6 +159,14 @@ class Dies(WrongDriver):
         self.assertRegex(self.run_with(shim, "devices", code=0).stdout, words)
         self.assertRegex(self.run_with(shim, "doctor", code=5).stdout, "BROKEN +OpenCL: " + words)
 
+    def test_one_of_three_is_left_out(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
+                "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("a.icd", "bad.icd", "c.icd")}
+        result = json.loads(self.run_with(shim, "devices", "--json", code=0).stdout)
+        self.assertEqual([device["platform_index"] for device in result["devices"]], [0, 1])
+        self.assertEqual(len(result["problems"]), 1)
+        self.assertIn("bad.icd: its driver was killed by SIGABRT", result["problems"][0])
+
     def test_is_left_out_of_what_is_measured(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
                 "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("bad.icd", "good.icd")}

@@ -18,13 +18,15 @@ class Wrong(WrongDriver):
         return json.loads(self.render({}, 0).stdout)["image"]["hash"]
 
     def test_a_gpu_counts_the_rays_of_all_work_items(self):
-        """It reads back sums of them."""
+        """It reads back sums of them, and rows of tiles or parts of rows."""
+        gpu = {"CL_SHIM_GPU": "1"}
         figures = [json.loads(self.run_with(
-            shim, "render", SCENE, "--size", "100", "--stats=json", "--no-fallback", "--device", device, code=0).stdout)
-            for device, shim in [("gpu", {"CL_SHIM_GPU": "1"}), ("threads", {})]]
-        self.assertEqual(figures[0]["device"]["launch"], "sample")
-        self.assertEqual(*(one["rays"] for one in figures))
-        self.assertEqual(*(one["image"]["hash"] for one in figures))
+            shim, "render", SCENE, "--size", "100", "--stats=json", "--no-fallback", "--device", device, "--tile", tile,
+            code=0).stdout) for device, shim, tile in [("threads", {}, "100"), ("gpu", gpu, "100x30"), ("gpu", gpu, "33x17")]]
+        for one in figures[1:]:
+            self.assertEqual(one["device"]["launch"], "sample")
+            self.assertEqual(one["rays"], figures[0]["rays"])
+            self.assertEqual(one["image"]["hash"], figures[0]["image"]["hash"])
 
     def test_by_the_doctor(self):
         result = self.run_with(brighter("1.000001"), "doctor", code=5)
