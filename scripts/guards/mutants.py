@@ -48,7 +48,7 @@ MUTANTS = [
         (K + "edges.cl", "(known == (Reals)8) | (contrast <=", "(known == (Reals)8) & (contrast <="),
     ], edges("LeavesEdgesAlone*")),
     Mutant("an edges mode does not follow thin shapes", [
-        (K + "edges.cl", "Index sides = 0;", "return 0;"),
+        (K + "edges.cl", "RT_OPEN | noted_sides(&pixel)", "RT_OPEN"),
     ], edges("FollowsThinShapes*")),
     Mutant("a settled pixel is the mean of its corners", [
         (K + "edges.cl", "sub3(scale3((Reals)(Real)0.25f, sum), change)", "scale3((Reals)(Real)0.25f, sum)"),
