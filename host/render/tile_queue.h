@@ -19,13 +19,6 @@ struct RayCounts {
     std::uint64_t primary = 0, shadow = 0, mirror = 0, transmitted = 0;
 
     std::uint64_t total() const { return primary + shadow + mirror + transmitted; }
-    RayCounts& operator+=(const RayCounts& other) {
-        primary += other.primary;
-        shadow += other.shadow;
-        mirror += other.mirror;
-        transmitted += other.transmitted;
-        return *this;
-    }
     RayCounts operator-(const RayCounts& other) const {
         return {primary - other.primary, shadow - other.shadow, mirror - other.mirror,
                 transmitted - other.transmitted};
