@@ -70,9 +70,9 @@ def sphere_flake(depth, *_):
 
 def mesh_sides(triangles):
     """Two whole numbers, one about twice the other where that can be, with that many cells."""
-    cells = triangles // 2
+    cells, odd = divmod(triangles, 2)
     for side in range(max(3, int(math.sqrt(cells / 2))), 2, -1):
-        if cells % side == 0:
+        if not odd and cells % side == 0:
             return side, cells // side
     raise SystemExit(f"bumpy-mesh {triangles}: give an even number with more divisors, 18 or more")
 
