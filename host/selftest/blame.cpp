@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/version.h"
@@ -381,8 +382,12 @@ Blame blame_device(const ClDevice& device, const std::string& folder) {
     Blame blame;
     blame.text = fmt::format("{} ({}, driver {}), mirrorball {} ({})\n", device.name,
                              device.platform, device.driver, version, git_revision);
+    print_note("checking functions");
     FunctionBlame(device, folder, blame).find();
-    if (blame.verdict.empty()) PictureBlame<float>(device, folder, blame).find();
+    if (blame.verdict.empty()) {
+        print_note("checking pictures");
+        PictureBlame<float>(device, folder, blame).find();
+    }
     if (blame.verdict.empty() && device.has_double) {
         PictureBlame<double>(device, folder, blame).find();
     }

@@ -105,8 +105,10 @@ class Selftest(WrongDriver):
     def reproduced(self, name):
         """What blame says, and what its C program prints with the fault and without."""
         folder, log = self.folder / name.replace(" ", "-").replace("^", ""), self.folder / "builds"
-        said = self.run_with(self.fault(name) | {"CL_SHIM_LOG": str(log)}, "blame", "--device", "pocl", "-o",
-                             str(folder), code=1).stdout
+        result = self.run_with(self.fault(name) | {"CL_SHIM_LOG": str(log)}, "blame", "--device", "pocl", "-o",
+                               str(folder), code=1)
+        self.assertIn("mirrorball: checking functions\n", result.stderr)
+        said = result.stdout
         options = next(line[8:] for line in (folder / "launch.txt").read_text().splitlines() if line[:8] == "options ")
         self.assertIn(options, [build.split(" -D_OPENCL_H_")[0] for build in log.read_text().splitlines()])
         kernel = (folder / "kernel.cl").read_text()
