@@ -238,10 +238,11 @@ void add_render(Verb& program, Invocation& call) {
                    "scene files (.json, .nff, .obj, .ply), or - for JSON from standard input",
                    false);
     verb.group = "Picture";
-    add_picture_output(verb, render.output, render.format,
-                       "picture file: .png, .exr, .pfm, .tif, .jpg, ..., or - for standard output "
-                       "(default: none); for several scenes, %s stands for the scene's name, as in "
-                       "out/%s.png");
+    add_picture_output(
+        verb, render.output, render.format,
+        "picture file: .png, .exr, .pfm, .tif, .jpg, ..., or - for standard output "
+        "(default: none); for several scenes, %s stands for the scene file's name, as in "
+        "out/%s.png");
     add_picture_options(verb, render);
     add_light_options(verb, render.light);
     verb.group = "Several pictures, and parts of one";

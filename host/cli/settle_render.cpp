@@ -86,8 +86,8 @@ void add_list(const std::string& path, std::vector<BatchItem>& items) {
 /// a letter or digit follows.
 bool has_frame_number(const std::string& name) { return frame_numbers(name).size() == 1; }
 
-/// The pattern with each %s, unless a letter or digit follows, replaced by the scene's name,
-/// without folder and extension.
+/// The pattern with each %s, unless a letter or digit follows, replaced by the name of the
+/// scene's file, without folder and extension.
 std::string batch_output(const std::string& pattern, const std::string& scene) {
     static const std::regex name("%s(?![[:alnum:]])"), dollar("[$]");
     const std::string text = std::filesystem::path(scene).stem().string();
@@ -195,8 +195,9 @@ void settle_scenes(RenderOptions& render) {
     }
     if (compares(render)) usage_error("--reference and --expect work only for a single scene");
     if (!render.output.empty() && render.output.find("%s") == std::string::npos) {
-        usage_error("-o '{}': with several scenes, use %s for the scene's name, as in out/%s.png",
-                    render.output);
+        usage_error(
+            "-o '{}': with several scenes, use %s for the scene file's name, as in out/%s.png",
+            render.output);
     }
 }
 

@@ -323,8 +323,10 @@ std::size_t FlatScene<T>::bytes() const {
 }
 
 template <typename T>
-FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options) {
+FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options) try {
     return Flattener<T>(scene, options).run();
+} catch (const Error& error) {
+    throw Error(error.exit_code(), scene.name + ": " + error.what());
 }
 
 template struct FlatScene<float>;

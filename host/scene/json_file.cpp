@@ -219,6 +219,9 @@ void read_path(ObjectReader& reader, Scene& scene) {
         if (reader.find("keys")) {
             reader.refuse("turntable", "a path has either 'turntable' or 'keys'; remove one");
         }
+        if (reader.find("interpolation")) {
+            reader.refuse("interpolation", "a turntable has no keys to interpolate; remove it");
+        }
         path.keys = turntable(scene.camera, frames);
         return;
     }
@@ -232,8 +235,8 @@ void read_path(ObjectReader& reader, Scene& scene) {
         Key key{0, scene.camera};
         if (!read_object(item, key, read_key)) continue;
         if (!path.keys.empty() && key.frame <= path.keys.back().frame) {
-            item.refuse("frame {} comes after frame {}; put the keys in order", key.frame,
-                        path.keys.back().frame);
+            item.refuse("frame {} comes after frame {}; put the keys in order, and each frame once",
+                        key.frame, path.keys.back().frame);
             continue;
         }
         path.keys.push_back(key);

@@ -23,7 +23,7 @@ def load(name: Union[str, "os.PathLike[str]"]) -> Dict[str, Any]:
     FileNotFoundError, and ValueError for a file that is no JSON.
     """
     path = pathlib.Path(name)
-    text = (path if path.suffix else pathlib.Path(scene(str(name)))).read_text(encoding="utf-8")
+    text = (path if path.suffix else pathlib.Path(scene(str(name)))).read_text(encoding="utf-8-sig")
     plain = re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*|/\*.*?\*/', lambda m: m[1] or "", text, flags=re.S)
     return dict(json.loads(plain))
 

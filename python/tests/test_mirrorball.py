@@ -260,7 +260,8 @@ def test_shipped_scenes_are_dicts(tmp_path):
     scene = mirrorball.load("cornell-box")
     assert scene["name"] and len(scene["spheres"]) == 2
     assert mirrorball.render(scene, size=40).hash == mirrorball.render(mirrorball.scene("cornell-box"), size=40).hash
-    (tmp_path / "own.json").write_text('// a comment\n{"name": "http://x /* y */", /* another */ "spheres": []}')
+    text = '\ufeff// a comment\n{"name": "http://x /* y */", /* another */ "spheres": []}'  # a byte order mark
+    (tmp_path / "own.json").write_text(text, encoding="utf-8")
     assert mirrorball.load(tmp_path / "own.json") == {"name": "http://x /* y */", "spheres": []}
 
 

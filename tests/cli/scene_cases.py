@@ -141,7 +141,7 @@ class Models(CliTest):
                                 spheres=[{"center": [0, 0, 0], "radius": 0.5, "material": "m"}])
         result = self.run_cli("scene", "check", path, "--json")
         self.assertEqual(result.returncode, 7)
-        self.assertIn("max_bounces is 17", json.loads(result.stdout)["mistakes"][0])
+        self.assertTrue(json.loads(result.stdout)["mistakes"][0].startswith("scene: max_bounces is 17, "))
 
     def test_bench_says_what_is_left_out(self):
         path = self.write_text("A.OBJ", TRIANGLE + "f 1 1 2\n")
