@@ -244,7 +244,7 @@ class Job {
         warn_(what + "; rendering on threads instead");
         std::vector<DeviceShare> shares = stats_.shares;
         if (shares.size() == 1) shares.front().failure = wrong;
-        render_again(stats_.device.name, std::move(shares));
+        render_again(by, std::move(shares));
     }
 
     /// Estimates the picture's error, and looks for a mode that reaches the target, on as many

@@ -4,6 +4,7 @@ import json
 import os
 
 from driver_case import SCENE, WrongDriver, brighter
+from pictures import png_texts
 
 
 class Wrong(WrongDriver):
@@ -126,6 +127,7 @@ class Wrong(WrongDriver):
             found, said = self.hash_of(code, "render", SCENE, "--size", "100", "--device", device,
                                        "-o", picture, "--check", "100%")
             self.assertIn("the journal: ", said)
+            self.assertRegex(png_texts(self.folder / "out.png")["mirrorball:FallbackFrom"], "the journal$")
             self.assertEqual(found, right)
             self.assertFalse(os.path.exists(journal))
 
