@@ -17,7 +17,7 @@ from .scenes import Scene, scene_path
 
 #: Options of `mirrorball render` that render() does not take.
 NOT_HERE = ("output", "o", "format", "stats", "q", "quiet", "batch", "frames", "shard", "aov",
-            "watch", "show", "preview")
+            "watch", "show", "preview", "resume", "fresh")
 
 
 def _print_progress(fraction: float) -> None:
@@ -30,15 +30,15 @@ def render(scene: Scene, *, progress: Union[bool, Progress, None] = None,
     """Renders a scene.
 
     scene: a path or a dict. progress: True for a line on stderr, or a function that is called with the
-    fraction done, 0 to 1. options: those of `mirrorball render`, except for those that say where the picture
-    and the figures go or that make several pictures:
+    fraction done, 0 to 1. options: those of `mirrorball render`, except for those that say where the picture,
+    its journal and the figures go or that make several pictures:
 
         what: size=500 or (640, 480), aa="grid:2", filter, crop, max_bounces, light_scale, ambient, reference,
             estimate, target_rmse=1e-3
         on what: device="pocl", threads, schedule, lanes, isa, launch, tile, isolate, deadline, no_fallback
         how: precision="double", math, features, hierarchies, caster_lists, check, timeout, encoding, expect,
             cl_options, save_kernels, verbose
-        journals and viewers: resume, fresh, tev
+        viewers: tev
 
     `mirrorball render --help` describes them. Raises Error.
     """
