@@ -12,7 +12,7 @@ namespace rt {
 /// What the eye ray through each pixel's center hits, row by row. In double, whatever the picture's
 /// precision.
 struct PixelHits {
-    std::vector<float> depth;   ///< distance from the eye, in the scene's units; 0: nothing
+    std::vector<float> depth;   ///< distance along the eye ray, in scene units; 0: nothing
     std::vector<float> normal;  ///< of unit length, on the side that lights see; three numbers each
     std::vector<std::int32_t> id;  ///< of the primitive, from 1: spheres, cones, triangles as the
                                    ///< scene lists them; 0: nothing

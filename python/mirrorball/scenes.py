@@ -39,7 +39,7 @@ def scene(name: str) -> str:
         path = folder / f"{name}.json"
         if path.exists():
             return str(path)
-    raise FileNotFoundError(f"no scene {name} beside {prefix}")
+    raise FileNotFoundError(f"no scene {name} next to {prefix}")
 
 
 def _plain(value: Any) -> Any:
