@@ -9,6 +9,9 @@
 
 #ifdef RT_DECLARES_BUILTINS
 
+// Of packets wider than the processor's vectors, each time that one is passed.
+#pragma clang diagnostic ignored "-Wpsabi"
+
 #define RT_BUILTIN __attribute__((overloadable, const))
 
 size_t RT_BUILTIN get_global_id(uint dimension);

@@ -45,6 +45,7 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
     if (settings.schedule != Schedule::tiles) {
         warn("--schedule has no effect on OpenCL devices");
     }
+    if (!settings.kernels.isa.empty()) warn("--isa has no effect on OpenCL devices");
     if (!choice.failure.empty()) return;
     if (settings.threads > 0 && choice.device.platform != pocl_platform) {
         warn("--threads has no effect on " + choice.device.name);

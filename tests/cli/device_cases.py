@@ -128,8 +128,14 @@ class Choice(CliTest):
     def test_fallback_needs_no_packets_of_the_width_asked_for(self):
         if "x86-64-v2" not in json.loads(self.run_cli("devices", "--json").stdout)["threads"]["isas"]:
             self.skipTest("no kernels for x86-64-v2 here")
-        self.render("empty", "--size", "4", "--device", "pocl", "--isa", "x86-64-v2", "--lanes",
-                    "16")
+        result = self.render("empty", "--size", "4", "--device", "pocl", "--isa", "x86-64-v2", "--lanes",
+                             "16")
+        self.assertIn("--isa has no effect on OpenCL devices", result.stderr)
+
+    def test_packets_wider_than_a_vector_compile_without_a_warning(self):
+        result = self.render("single-sphere", "--size", "4", "--device", "pocl", "--precision", "double", "--lanes",
+                             "16", "--no-fallback", env={"POCL_CACHE_DIR": str(self.folder / "cold")})
+        self.assertNotIn("warning", result.stderr)
 
     def test_ambiguous_lists_the_candidates(self):
         for spec in ["pocl", "cpu", "name:pthread"]:
