@@ -3,6 +3,7 @@
 # scripts/fuzz. Findings and new inputs stay in the build folder.
 function(add_fuzz_target NAME LIBRARY)
     add_executable(${NAME} ${NAME}.cpp)
+    target_compile_options(${NAME} PRIVATE -fsanitize=fuzzer-no-link)
     target_link_options(${NAME} PRIVATE -fsanitize=fuzzer)
     target_link_libraries(${NAME} PRIVATE ${LIBRARY})
     set(corpus ${CMAKE_BINARY_DIR}/corpus/${NAME})
