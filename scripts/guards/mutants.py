@@ -245,7 +245,7 @@ MUTANTS = [
     ], [("host_journal_test", "Journals.*")]),
     Mutant("merge takes parts of other pictures", [
         (J + "shares.cpp", "if (header.key == first.key && ", "if ("),
-    ], [("host_journal_test", "Journals.*")]),
+    ], cli("journal_cases.Shares.test_parts_that_are_none_are_refused")),
     Mutant("merge overlooks pixels that differ", [
         (J + "shares.cpp", "values, pixel_bytes) != 0) {", "values, pixel_bytes) > 999) {"),
     ], [("host_journal_test", "Journals.*")]),
