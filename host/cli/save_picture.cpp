@@ -30,9 +30,9 @@ bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
     return true;
 }
 
-/// What a picture file says of itself; empty if it cannot be read.
+/// What a picture file says of itself; empty if it cannot be read, to the end: a copy may be cut.
 std::optional<PictureMetadata> metadata_in(const std::string& path) try {
-    return read_picture_header(path).metadata;
+    return read_picture_file(path).metadata;
 } catch (const Error&) {
     return std::nullopt;
 }

@@ -74,8 +74,11 @@ class Frames(CliTest):
                     self.assertIn("skipped 1 existing frame", result.stderr)
                     result = self.frames(*again, *change, output=output)
                     self.assertIn("skipped 2 existing frames", result.stderr)
-                (self.folder / f"f01.{ending}").write_text("cut")
-                self.assertIn("skipped 1 existing frame", self.frames(*again, *change, output=output).stderr)
+                whole = (self.folder / f"f01.{ending}").read_bytes()
+                for cut in [b"cut", whole[:-20]]:
+                    (self.folder / f"f01.{ending}").write_bytes(cut)
+                    self.assertIn("skipped 1 existing frame", self.frames(*again, *change, output=output).stderr)
+                    self.assertEqual((self.folder / f"f01.{ending}").read_bytes(), whole)
 
     def test_a_scene_that_cannot_be_read_is_told_once(self):
         (self.folder / "s.json").unlink()
