@@ -9,7 +9,7 @@
 
 #ifdef RT_DECLARES_BUILTINS
 
-// Of packets wider than the processor's vectors, each time that one is passed.
+// Clang warns each time that a packet wider than the processor's vectors is passed.
 #pragma clang diagnostic ignored "-Wpsabi"
 
 #define RT_BUILTIN __attribute__((overloadable, const))

@@ -30,7 +30,7 @@ bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
     return true;
 }
 
-/// What a picture file says of itself; empty if it cannot be read, to the end: a copy may be cut.
+/// What a picture file says of itself; empty if it cannot be read to its end.
 std::optional<PictureMetadata> metadata_in(const std::string& path) try {
     return read_picture_file(path).metadata;
 } catch (const Error&) {
