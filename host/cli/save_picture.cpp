@@ -30,9 +30,10 @@ bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
     return true;
 }
 
-/// What a picture file says of itself; empty if it cannot be read to its end.
-std::optional<PictureMetadata> metadata_in(const std::string& path) try {
-    return read_picture_file(path).metadata;
+/// What a picture file says of itself; empty if `read` cannot read it.
+std::optional<PictureMetadata> metadata_in(
+    const std::string& path, PictureFile (*read)(const std::string&) = read_picture_header) try {
+    return read(path).metadata;
 } catch (const Error&) {
     return std::nullopt;
 }
@@ -75,7 +76,7 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
 bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) {
     const auto format = known_picture_format(path);
     if (format != PictureFormat::png && format != PictureFormat::exr) return true;
-    const auto found = metadata_in(path);
+    const auto found = metadata_in(path, read_picture_file);  // to its end: a copy may be cut
     return found &&
            (text_in(*found, scene_hash_key).empty() ||
             shows_the_same(*found, picture_metadata(scene.name, hash_text(scene_hash(scene)),

@@ -104,8 +104,9 @@ class Interrupted(CliTest):
         finished = self.bytes_of("out.partial.png")
         self.interrupted("out.png")
         self.assertEqual(self.bytes_of("out.partial.png"), finished)
-        (self.folder / "out.partial.png").write_bytes(first)
-        self.assertIn("the finished part is in out.partial.png", self.interrupted("out.png"))
+        for unfinished in [first, first[:-20]]:
+            (self.folder / "out.partial.png").write_bytes(unfinished)
+            self.assertIn("the finished part is in out.partial.png", self.interrupted("out.png"))
         self.assertEqual(self.pictures(), ["out.partial.png"])
 
     def test_an_unfinished_picture_never_takes_the_place_of_an_input(self):
