@@ -28,28 +28,25 @@ std::string inexact_names(const std::vector<DeviceChoice>& devices) {
 
 void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
                               const RenderEvents& events) {
-    const auto warn = [&](const std::string& line) {
-        if (events.message) events.message(line);
+    const auto warn = [&](bool is_given, const std::string& option, const std::string& device) {
+        if (is_given && events.message) events.message(option + " has no effect on " + device);
     };
     if (choice.use_threads) {
-        if (settings.kernels.launch != Launch::automatic) {
-            warn("--launch has no effect on threads");
-        }
-        if (settings.math == Math::fast) warn("--math fast has no effect on threads");
-        if (std::max(choice.threads, settings.threads) > available_cores()) {
-            warn("more threads than the " + counted(available_cores(), "core") +
-                 " available here; they take turns");
+        warn(settings.kernels.launch != Launch::automatic, "--launch", "threads");
+        warn(settings.math == Math::fast, "--math fast", "threads");
+        warn(!build_extras().options.empty(), "--cl-options", "threads");
+        warn(!build_extras().folder.empty(), "--save-kernels", "threads");
+        if (std::max(choice.threads, settings.threads) > available_cores() && events.message) {
+            events.message("more threads than the " + counted(available_cores(), "core") +
+                           " available here; they take turns");
         }
         return;
     }
-    if (settings.schedule != Schedule::tiles) {
-        warn("--schedule has no effect on OpenCL devices");
-    }
-    if (!settings.kernels.isa.empty()) warn("--isa has no effect on OpenCL devices");
+    warn(settings.schedule != Schedule::tiles, "--schedule", "OpenCL devices");
+    warn(!settings.kernels.isa.empty(), "--isa", "OpenCL devices");
     if (!choice.failure.empty()) return;
-    if (settings.threads > 0 && choice.device.platform != pocl_platform) {
-        warn("--threads has no effect on " + choice.device.name);
-    }
+    const bool is_pocl = choice.device.platform == pocl_platform;
+    warn(settings.threads > 0 && !is_pocl, "--threads", choice.device.name);
     if (settings.math == Math::strict && !choice.is_exact() && events.detail) {
         events.detail(choice.device.name +
                       " does not guarantee correctly rounded division and square roots, so its "

@@ -132,6 +132,12 @@ class Choice(CliTest):
                              "16")
         self.assertIn("--isa has no effect on OpenCL devices", result.stderr)
 
+    def test_options_without_effect_on_threads_are_named(self):
+        result = self.render("empty", "--size", "4", "--device", "threads", "--launch", "sample", "--math", "fast",
+                             "--cl-options=-w", "--save-kernels", "kernels")
+        for option in ["--launch", "--math fast", "--cl-options", "--save-kernels"]:
+            self.assertIn(f"{option} has no effect on threads", result.stderr)
+
     def test_packets_wider_than_a_vector_compile_without_a_warning(self):
         result = self.render("single-sphere", "--size", "4", "--device", "pocl", "--precision", "double", "--lanes",
                              "16", "--no-fallback", env={"POCL_CACHE_DIR": str(self.folder / "cold")})
