@@ -145,9 +145,10 @@ TEST(ParsePly, BytesAfterTheEndAreNoted) {
     EXPECT_TRUE(parse_ply(whole + "\n", "t.ply").notes.empty());
     const Model model = parse_ply(whole + "more of it", "t.ply");
     ASSERT_EQ(model.notes.size(), 1u);
-    EXPECT_EQ(model.notes[0],
-              "t.ply: element 'face' 1: more data follows than the header declares; correct its "
-              "counts (10 bytes ignored)");
+    EXPECT_EQ(
+        model.notes[0],
+        "t.ply: end: more data follows than the header declares; correct its counts (10 bytes "
+        "ignored)");
 }
 
 /// Two strips in one list, as in Stanford's models, one of which turns a corner.

@@ -179,6 +179,7 @@ class Rows {
         constexpr std::size_t few = 4;
         const bool is_blank = left().find_first_not_of("\r\n \t") == left().npos;
         start_ = scanner_.offset();
+        element_ = nullptr;
         if (!is_text_ && (left().size() > few || !is_blank)) {
             return note(extra_byte, message, left().size());
         }
