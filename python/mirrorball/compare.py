@@ -18,7 +18,7 @@ import numpy
 
 from . import measures
 from .picture import read_pfm
-from .program import find_program
+from .program import find_program, run_main
 
 
 def flip(picture: Any, reference: Any) -> float:
@@ -75,7 +75,8 @@ def main() -> int:
     except ValueError as error:
         print(f"mirrorball: {error}", file=sys.stderr)
         return 3
-    print(f"  FLIP        {mean:.4e}")
+    is_json = any(word.startswith("--json") for word in others)  # which stdout may hold
+    print(f"  FLIP        {mean:.4e}", file=sys.stderr if is_json else sys.stdout)
     if arguments.max_flip is not None and not mean <= arguments.max_flip:
         print(f"mirrorball: FLIP {mean:.4g} exceeds --max-flip {arguments.max_flip:.4g}", file=sys.stderr)
         return 1
@@ -83,4 +84,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

@@ -11,7 +11,11 @@ from .picture import as_file
 from .program import option_words, run, run_json
 from .rendering import NOT_HERE
 from .scenes import Scene, scene_path
-from .texts import renderer_name
+from .texts import name_renderers
+
+
+#: Exit codes of bench and converge with a wrong, failed or non-finite row, whose verdict says so.
+WITH_BAD_ROWS = (0, 1, 5, 6)
 
 
 class Rows(List[Dict[str, Any]]):
@@ -38,41 +42,42 @@ def bench(*scenes: Scene, **options: Any) -> Rows:
     """`mirrorball bench`: a row for each device, size, mode and schedule.
 
     Options are, for example, sizes=[100, 200], devices=["pocl", "threads:2"], aa=["none", "grid:2"],
-    repeats=5. Without a scene, it measures the paper's. `verdict` says which rows' pictures are wrong,
+    repeats=5. Without a scene, it measures the paper's. `verdict` says which rows are wrong or failed,
     `renderer` is its device's short name, such as PoCL (AMD EPYC), and `asked` what of `devices` it is.
     Raises Error.
     """
     with contextlib.ExitStack() as stack:
         paths = [stack.enter_context(scene_path(scene)) for scene in scenes]
-        report = run_json(["bench", *paths, "--json", "-q", *option_words(options)],
-                          accepted=(0, 1))
-    rows = report["rows"]
-    return Rows([{**_flat(row), **_names(row, report["rows"], options.get("devices"))} for row in rows], report)
+        report = run_json(["bench", *paths, "--json", "-q", *option_words(options)], accepted=WITH_BAD_ROWS)
+    return _rows(report, "rows", options.get("devices"))
 
 
 def converge(scene: Scene, **options: Any) -> Rows:
     """`mirrorball converge`: error against run time, a row for each device, precision and AA mode.
 
     `figures.seconds.median` and `figures.rmse` are the two axes; report["pareto_front"] has the
-    indices of the best rows. Raises Error.
+    indices of the best rows; `verdict` is as for bench. Raises Error.
     """
     with scene_path(scene) as path:
-        report = run_json(["converge", path, "--json", "-q", *option_words(options)])
-    points = report["points"]
-    return Rows([{**_flat(point), **_names(point, points, options.get("devices"))} for point in points], report)
+        report = run_json(["converge", path, "--json", "-q", *option_words(options)], accepted=WITH_BAD_ROWS)
+    return _rows(report, "points", options.get("devices"))
 
 
-def _names(row: dict[str, Any], rows: list[dict[str, Any]], devices: Any) -> dict[str, str]:
-    """Who rendered a row, in short, and what of `devices` asked for it; "all" where it was not named."""
+def _rows(report: dict[str, Any], key: str, devices: Any) -> Rows:
+    rows = report[key]
+    name_renderers(rows)
+    return Rows([{**_flat(row), "asked": _asked(row, rows, devices)} for row in rows], report)
+
+
+def _asked(row: dict[str, Any], rows: list[dict[str, Any]], devices: Any) -> str:
+    """What of `devices` asked for a row; "all" where it was not named."""
     asked = devices.split(",") if isinstance(devices, str) else [str(one) for one in devices or ["all"]]
     opencl = [spec for spec in asked if not spec.startswith(("threads", "all"))]
     found = list(dict.fromkeys(one["device"] for one in rows if one["device_name"] != "threads"))
     if row["device_name"] == "threads":
-        named = next((spec for spec in asked if spec == row["device"]), None) or \
+        return next((spec for spec in asked if spec == row["device"]), None) or \
             next((spec for spec in asked if spec == "threads"), "all")
-    else:
-        named = opencl[found.index(row["device"])] if len(opencl) == len(found) else row["device"]
-    return {"renderer": renderer_name(row), "asked": named}
+    return opencl[found.index(row["device"])] if len(opencl) == len(found) else str(row["device"])
 
 
 def stress(**options: Any) -> Rows:

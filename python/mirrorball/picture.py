@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import pathlib
 import struct
 import tempfile
 import zlib
@@ -83,9 +82,6 @@ class Picture:
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the picture in the format of the name's ending: .pfm and .exr (every bit), .png, .tif, .jpg
         and the others of `mirrorball render -o`. Raises Error."""
-        if pathlib.Path(path).suffix.lower() == ".pfm":
-            write_pfm(path, self.array)
-            return
         with tempfile.TemporaryDirectory(prefix="mirrorball-") as folder:
             run(["merge", as_file(self.array, folder, "picture.pfm"), "-o", path, "-q"])
 

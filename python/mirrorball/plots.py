@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Charts by matplotlib: inline SVG for a page that has THEME's colors as CSS variables, and files.
 
-One plot is one function call that returns a Figure; `inline_svg` and `save` write it.
+One plot is one function call that returns a Figure; `inline_svg` and `as_file` write it.
 """
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import dataclasses
 import html
 import io
 import math
-import pathlib
 import re
 from typing import Any, Callable, Iterable, Optional, Sequence
 
@@ -356,9 +355,10 @@ def inline_svg(plot: Plot) -> str:
     return head + body
 
 
-def save(plot: Plot, folder: pathlib.Path, suffixes: Iterable[str] = ("svg", "pdf", "png")) -> None:
-    """The plot as files, for slides, papers and docs: light, on white."""
+def as_file(plot: Plot, suffix: str) -> bytes:
+    """The plot as an SVG, PDF or PNG file, for slides, papers and docs: light, on white."""
+    dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": None}}[suffix]
+    file = io.BytesIO()
     with matplotlib.rc_context({"svg.hashsalt": plot.name}):
-        for suffix in suffixes:
-            dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": None}}[suffix]
-            plot.figure.savefig(folder / f"{plot.name}.{suffix}", facecolor="white", dpi=200, metadata=dated)
+        plot.figure.savefig(file, format=suffix, facecolor="white", dpi=200, metadata=dated)
+    return file.getvalue()

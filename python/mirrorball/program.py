@@ -113,14 +113,14 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
         accepted: Iterable[int] = (0,), echo: bool = False) -> str:
     """What the program prints on stdout; `echo` passes its messages on to stderr as they come.
 
-    Raises Error if its exit code is not among the accepted. An interrupt, and what `progress` raises,
+    Raises Error if its exit code is not among the accepted, or is not 0 and it printed nothing. An interrupt, and what `progress` raises,
     first stops the program and is then raised again.
     """
     command = [find_program(), *(_word(word) for word in words)]
     said: list[str] = []
     raised: list[BaseException] = []
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True, errors="replace") as process:
+                          stderr=subprocess.PIPE, encoding="utf-8", errors="replace") as process:
         assert process.stdout is not None
         listener = threading.Thread(target=_listen, args=(process, progress, said, raised, echo),
                                     daemon=True)
@@ -136,7 +136,7 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
                 listener.join(_SECONDS_TO_STOP)
     if raised:
         raise raised[0]
-    if process.returncode not in accepted:
+    if process.returncode not in accepted or (process.returncode != 0 and not printed):
         raise error_of(process.returncode, "".join(said))
     return printed
 
@@ -152,7 +152,21 @@ def run_json(words: Iterable[Any], progress: Optional[Progress] = None,
                          0) from error
 
 
-def main() -> None:
-    """The command `mirrorball` of an installed package: the program itself, in this process's place."""
+def run_main(main: Callable[[], int]) -> None:
+    """Ends this process with the exit code that `main` returns; 5, after one line, if there is no program."""
+    try:
+        find_program()
+    except FileNotFoundError as error:
+        print(f"mirrorball: {error}", file=sys.stderr)
+        sys.exit(5)
+    sys.exit(main())
+
+
+def _become_program() -> int:
     program = find_program()
     os.execv(program, [program, *sys.argv[1:]])
+
+
+def main() -> None:
+    """The command `mirrorball` of an installed package: the program itself, in this process's place."""
+    run_main(_become_program)

@@ -52,6 +52,8 @@ def _read(path: str) -> dict[str, Any]:
             slower(row["figures"]["total"], row["figures"]["trace"], 0)
             str.join(" ", [row["scene"]["path"], row["key"]])
         return result
+    except OSError as error:
+        raise ValueError(f"{path}: cannot read: {error.strerror}; check the path") from None
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         raise ValueError(f"{path}: is not a result of mirrorball bench; write one with 'bench --json FILE'") from None
 
@@ -72,9 +74,10 @@ def main() -> int:
     arguments = parser.parse_args()
     try:
         found = regressions(_read(arguments.old), _read(arguments.new), arguments.max_regress)
-    except (OSError, ValueError) as error:
+    except ValueError as error:
         print(f"mirrorball: {error}", file=sys.stderr)
         return 3
+    sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     for line in found or ["no row is slower"]:
         print(f"slower: {line}" if found else line)
     return 1 if found else 0

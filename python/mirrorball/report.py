@@ -11,6 +11,7 @@ import os
 import pathlib
 import shlex
 import signal
+import statistics
 import sys
 import tempfile
 from typing import Any, Optional
@@ -19,9 +20,10 @@ import numpy
 
 from . import plots, sections, time_sections
 from .errors import Error, OutputError
+from .measures import WITH_BAD_ROWS
 from .page import data_block, document, paragraph, text
-from .picture import read_pfm, write_pfm
-from .program import run_json
+from .picture import read_pfm
+from .program import run_json, run_main
 from .study import Figures, Json, Study, was_cold
 from .stress_section import stress_section
 from .texts import counted, size_text
@@ -31,7 +33,8 @@ SWEEP = {False: "none,grid:2,grid:4,sobol:4,sobol:16,sobol:64,sobol:256,adaptive
           True: "none,grid:2,grid:3,sobol:4"}  # by --quick
 _REFERENCE_SAMPLES = {False: 1024, True: 32}
 _SIGNALS = {signal.SIGINT: "interrupted (Ctrl-C)", signal.SIGTERM: "terminated",
-            signal.SIGHUP: "the terminal has gone", signal.SIGXCPU: "out of CPU time"}
+            signal.SIGHUP: "the terminal has gone", signal.SIGUSR1: "asked to stop (SIGUSR1)",
+            signal.SIGXCPU: "out of CPU time"}
 
 
 class Stopped(BaseException):
@@ -59,12 +62,13 @@ class Laboratory:
             print(f"mirrorball: {what}", file=sys.stderr, flush=True)
 
     def run(self, *words: str, remember: bool = True) -> Json:
-        """The JSON a verb prints. Pictures that are wrong (exit code 1) are told by their verdicts."""
+        """The JSON a verb prints. Verdicts tell what is wrong or failed."""
         command = shlex.join(["mirrorball", *words]).replace(f"{self.folder}/", "")
         if remember and command not in self.commands:
             self.commands.append(command)
         is_quiet = words[0] == "render" or (self.quiet and words[0] in ("bench", "converge", "stress"))
-        return run_json([*words, *(["-q"] if is_quiet else [])], accepted=(0, 1), echo=True)
+        accepted = WITH_BAD_ROWS if words[0] in ("bench", "converge") else (0, 1)
+        return run_json([*words, *(["-q"] if is_quiet else [])], accepted=accepted, echo=True)
 
 
 def _study(lab: Laboratory, index: int, scene: str, arguments: argparse.Namespace) -> Study:
@@ -88,7 +92,6 @@ def _study(lab: Laboratory, index: int, scene: str, arguments: argparse.Namespac
     converge = lab.run("converge", scene, *size, "--aa", SWEEP[arguments.quick], "--reference-samples",
                        str(_REFERENCE_SAMPLES[arguments.quick]), "--reference", str(kept), *devices, "--json")
     reference = read_pfm(kept)
-    kept.unlink()
 
     lab.say(f"{scene}, step 3 of 3: pictures, and what leaving features out saves")
     device = next((row["device"] for row in bench["rows"] if row["figures"] and not row["threads"]), None)
@@ -98,17 +101,13 @@ def _study(lab: Laboratory, index: int, scene: str, arguments: argparse.Namespac
         file = lab.folder / f"{kind}.pfm"
         stats[kind] = lab.run(*render, "--aa", mode, "--estimate", "-o", str(file))
         pixels[kind] = numpy.clip(read_pfm(file), 0, 1)
-    _measure_errors(lab, reference, stats)
+    for kind, one in stats.items():
+        one["error"] = lab.run("compare", str(lab.folder / f"{kind}.pfm"), str(kept), "--clamp", "--json",
+                               remember=False)["error"]
+    kept.unlink()
     features = _features(lab, [*render, "--aa", aa], max(arguments.repeats, 9), bench) if device else None
     return Study(index, bench, converge, stats, pixels["plain"], pixels["smooth"], numpy.clip(reference, 0, 1),
                  features)
-
-
-def _measure_errors(lab: Laboratory, reference: numpy.ndarray, stats: dict[str, Json]) -> None:
-    write_pfm(lab.folder / "reference.pfm", reference)
-    for kind, one in stats.items():
-        one["error"] = lab.run("compare", str(lab.folder / f"{kind}.pfm"), str(lab.folder / "reference.pfm"),
-                               "--clamp", "--json", remember=False)["error"]
 
 
 def _features(lab: Laboratory, render: list[str], rounds: int, bench: Json) -> Json:
@@ -119,13 +118,13 @@ def _features(lab: Laboratory, render: list[str], rounds: int, bench: Json) -> J
     for row in bench["rows"]:
         if row["warm_up"] and not row["threads"] and was_cold(row):
             cold.setdefault("auto_cold", row["warm_up"][0])
-    for turn in range(rounds + 1):
+    for _ in range(rounds + 1):
         for kind, found in runs.items():
-            one = lab.run(*render, "--features", kind, remember=kind == "all")
-            if turn > 0:
-                found.append(one)
-            elif one["seconds"]["build"] > 0:
-                cold.setdefault(f"{kind}_cold", one)
+            found.append(lab.run(*render, "--features", kind, remember=kind == "all"))
+    first = {kind: found.pop(0) for kind, found in runs.items()}
+    builds = [run["seconds"]["build"] for run in runs["all"]]
+    if first["all"]["seconds"]["build"] > 2 * statistics.median(builds):
+        cold["all_cold"] = first["all"]
     return {**runs, **cold}
 
 
@@ -200,21 +199,25 @@ def _data(machine: Json, studies: list[Study], stress: Optional[Json]) -> str:
             + "".join(data_block(name, value) for name, value in blocks.items()))
 
 
-def is_wrong(studies: list[Study], stress: Optional[Json]) -> bool:
-    """Whether any picture is."""
+def exit_code(studies: list[Study], stress: Optional[Json]) -> int:
+    """1 if any picture is wrong, 5 if any could not be rendered."""
     verdicts = {row["verdict"] for study in studies for row in study.bench["rows"] + study.converge["points"]}
-    return "wrong" in verdicts or bool(stress and not stress["passed"])
+    if "wrong" in verdicts or (stress and not stress["passed"]):
+        return 1
+    return 5 if "failed" in verdicts else 0
 
 
-def _write(path: pathlib.Path, html: str) -> None:
-    """The whole page, or none."""
+def _write(path: pathlib.Path, content: bytes) -> None:
+    """The whole file, or none; through a link, and with the mode of the file that it replaces."""
     try:
-        with tempfile.NamedTemporaryFile("wb", dir=path.parent, prefix=".mirrorball-", delete=False) as file:
+        target = pathlib.Path(os.path.realpath(path))
+        mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~_umask()
+        with tempfile.NamedTemporaryFile("wb", dir=target.parent, prefix=".mirrorball-", delete=False) as file:
             try:
-                file.write(html.encode("utf-8", "replace"))
+                file.write(content)
                 file.flush()
-                os.fchmod(file.fileno(), 0o666 & ~_umask())
-                os.replace(file.name, path)
+                os.fchmod(file.fileno(), mode)
+                os.replace(file.name, target)
             except BaseException:
                 os.unlink(file.name)
                 raise
@@ -243,12 +246,13 @@ def make_report(arguments: argparse.Namespace) -> int:
             quick = ["--quick"] if arguments.quick else []
             stress = lab.run("stress", "--device", arguments.devices, *quick, "--json", "-", "-o", str(pictures))
         figures = Figures()
-        html = page(studies, stress, pictures, lab.commands, figures)
-        _write(arguments.output, html)
+        html = page(studies, stress, pictures, lab.commands, figures).encode("utf-8", "replace")
         for plot in figures.plots if arguments.plots else []:
-            plots.save(plot, arguments.plots)
-        lab.say(f"{arguments.output}: {-(-len(html.encode('utf-8', 'replace')) // 1000)} kB")
-        return int(is_wrong(studies, stress))
+            for suffix in ("svg", "pdf", "png"):
+                _write(arguments.plots / f"{plot.name}.{suffix}", plots.as_file(plot, suffix))
+        _write(arguments.output, html)
+        lab.say(f"{arguments.output}: {-(-len(html) // 1000)} kB")
+        return exit_code(studies, stress)
 
 
 def _make_folder(path: pathlib.Path) -> None:
@@ -256,6 +260,8 @@ def _make_folder(path: pathlib.Path) -> None:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{path}: cannot make this folder: {error.strerror}", 4) from error
+    if not os.access(path, os.W_OK):
+        raise OutputError(f"{path}: cannot write into this folder; choose another", 4)
 
 
 def _own_command(arguments: argparse.Namespace) -> str:
@@ -283,7 +289,8 @@ def _parser() -> argparse.ArgumentParser:
 
 def main() -> int:
     for number in _SIGNALS:
-        signal.signal(number, _stop)
+        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup ignores SIGHUP
+            signal.signal(number, _stop)
     try:
         return make_report(_parser().parse_intermixed_args())
     except Stopped as stopped:
@@ -294,7 +301,10 @@ def main() -> int:
         return error.exit_code
     except Error as error:  # what the program printed is on stderr already
         return error.exit_code if error.exit_code > 0 else 128 - error.exit_code
+    except OSError as error:
+        print(f"mirrorball: {error.filename or 'report'}: {error.strerror or error}", file=sys.stderr)
+        return 4
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_main(main)

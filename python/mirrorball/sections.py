@@ -71,14 +71,14 @@ def headline(studies: list[Study]) -> str:
 
 
 def verdict_details(study: Study) -> str:
-    rows = study.bench["rows"]
-    failed = {kind: sum(row["verdict"] == kind for row in rows) for kind in ("wrong", "failed")}
+    rows, points = study.bench["rows"], study.converge["points"]
+    failed = {kind: sum(row["verdict"] == kind for row in rows + points) for kind in ("wrong", "failed")}
     rounding = max((row["repeats"][0]["error"]["rmse"] for row in rows
                     if row["figures"] and row["precision"] == "float"), default=0)
     right = (f"All {len(rows)} combinations of device, size and sampling gave the right picture; float is within "
              f"RMSE {scientific(rounding)} of double.")
     if any(failed.values()):
-        right = f"Of {len(rows)} combinations, {failed['wrong']} gave a wrong picture and {failed['failed']} failed."
+        right = f"Of {len(rows) + len(points)} combinations, {failed['wrong']} gave a wrong picture and {failed['failed']} failed."
     best = min(study.largest(), key=trace_seconds, default=None)
     if best is None:
         return right

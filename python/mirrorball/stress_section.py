@@ -36,7 +36,7 @@ def used_tolerance(family: Json) -> Optional[float]:
     """The largest ratio of error to allowed error; None where no number is compared."""
     shares = [(math.inf if error is None else error) / case["bar"]["max_error"]
               for case in family["cases"] if case["bar"]["max_error"] > 0
-              for row in case["rows"] if "texts" not in row
+              for row in case["rows"]
               for error in [_figures(row).get("max_error", -1)] if error != -1]
     return max(shares, default=None)
 

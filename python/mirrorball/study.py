@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import statistics
 from typing import Any, Optional
 
@@ -11,7 +12,7 @@ import numpy
 from . import plots
 from .page import text
 from .plots import Plot
-from .texts import sampling_text, size_text
+from .texts import name_renderers, sampling_text, size_text
 
 Json = dict[str, Any]
 
@@ -29,9 +30,16 @@ class Study:
     features: Optional[Json]  # runs with what the scene needs (auto) and with everything (all); None without OpenCL
 
     def __post_init__(self) -> None:
-        self.colors: dict[str, str] = {"threads": plots.THREADS_COLOR}
+        for rows in (self.bench["rows"], self.converge["points"]):
+            name_renderers(rows)
+        self._colors: dict[str, str] = {}
         for row in self.bench["rows"]:
-            self.colors.setdefault(row["device_name"], f"s{1 + (len(self.colors) - 1) % 5}")
+            if row["device_name"] != "threads":
+                self._colors.setdefault(row["device"], f"s{1 + len(self._colors) % 5}")
+
+    def color(self, row: Json) -> str:
+        """Of a row, point or curve: that of its device."""
+        return self._colors.get(row["device"], plots.THREADS_COLOR)
 
     @property
     def name(self) -> str:
@@ -53,8 +61,8 @@ class Study:
         return [row for row in rows if _work(row) == most]
 
 
-def _work(row: Json) -> tuple[int, int]:
-    return row["width"] * row["height"], row["samples"] or 1
+def _work(row: Json) -> tuple[int, float]:
+    return row["width"] * row["height"], row["samples"] or math.inf  # None: as many as a pixel needs
 
 
 def trace_seconds(row: Json) -> float:

@@ -93,6 +93,8 @@ def short_name(name: str) -> str:
 
 def renderer_name(row: dict[str, Any]) -> str:
     """Who rendered a row of bench or a point of converge: PoCL (AMD EPYC), or 2 threads, sample buffers."""
+    if "renderer" in row:
+        return str(row["renderer"])
     runs = row.get("repeats") or row.get("warm_up") or []
     device = runs[0]["device"] if runs else {}
     threads = row.get("threads") or device.get("threads", 0)
@@ -101,3 +103,11 @@ def renderer_name(row: dict[str, Any]) -> str:
     schedule = {"buffers": ", sample buffers", "scalar": ", one ray at a time"}
     name = counted(threads, "thread") if threads else "threads"
     return name + schedule.get(row.get("schedule", ""), "")
+
+
+def name_renderers(rows: list[dict[str, Any]]) -> None:
+    """Gives each row its `renderer`, with the device's number where devices share a name."""
+    names = [renderer_name(row) for row in rows]
+    for row, name in zip(rows, names):
+        devices = {other["device"] for other, its in zip(rows, names) if its == name}
+        row["renderer"] = f"{name}, device {row['device']}" if len(devices) > 1 else name

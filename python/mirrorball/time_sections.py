@@ -69,7 +69,7 @@ def _phases_figure(study: Study, figures: Figures, name: str, title: str,
         medians = [(phase.replace("_", " "), statistics.median(run["seconds"][phase] for run in runs), opacity)
                    for phase, opacity in _PHASES.items()]
         total = statistics.median(sum(run["seconds"][phase] for phase in _PHASES) for run in runs)
-        bars.append(Bar(label, duration(total), study.colors[row["device_name"]], medians))
+        bars.append(Bar(label, duration(total), study.color(row), medians))
     return figures.put(plots.bars_plot(f"{name}-{study.index}", title, bars), caption, "plot wide")
 
 
@@ -112,7 +112,7 @@ def _size_curves(study: Study, value: Callable[[Json], Optional[tuple[float, tup
                                     source=study.source(row),
                                     title=f"{row['width']}×{row['height']} on {renderer_name(row)}: {words}"))
         style = {"buffers": 2, "scalar": 3}.get(like["schedule"], int(like["threads"] == 1))
-        curves.append(Curve(renderer_name(like), study.colors[like["device_name"]],
+        curves.append(Curve(renderer_name(like), study.color(like),
                             sorted(points, key=lambda p: p.x), style))
     return curves
 
@@ -241,7 +241,7 @@ def _error_curves(study: Study) -> list[Curve]:
         if build and build["first_build"] > 0:
             points[0].with_build = points[0].x + build["open"] + build["first_build"]
         name = "" if is_double and has_float else f"{_thread_free(first)} {measured['family']}"
-        curves.append(Curve(name, study.colors[measured["device_name"]], points, families.index(measured["family"]),
+        curves.append(Curve(name, study.color(measured), points, families.index(measured["family"]),
                             is_double))
     return curves
 

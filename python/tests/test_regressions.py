@@ -9,7 +9,7 @@ import sys
 import pytest
 
 import mirrorball
-from mirrorball.regressions import slower
+from mirrorball.regressions import _read, slower
 
 
 def result(**seconds):
@@ -49,3 +49,8 @@ def test_slower_rows_are_named(compare):
 def test_damaged_files_and_other_rows_are_refused(compare, old):
     found = compare(old, result(a=1))
     assert (found.returncode, found.stdout, found.stderr.count("\n")) == (3, "", 1) and "Traceback" not in found.stderr
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(ValueError, match="missing.json: cannot read: No such file or directory; check the path"):
+        _read(str(tmp_path / "missing.json"))

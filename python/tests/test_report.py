@@ -9,10 +9,10 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
-from mirrorball import page, plots, texts
+from mirrorball import page, plots, report, sections, texts
 from mirrorball.program import run_json
 from mirrorball.stress_section import by_margin, stress_section, used_tolerance
-from mirrorball.study import Figures
+from mirrorball.study import Figures, Study
 
 
 def test_numbers_keep_their_digits():
@@ -90,3 +90,31 @@ def test_the_stress_section_shows_verdicts_curves_and_the_worst_pictures(tmp_pat
     assert by_margin(families)[0] == 2
     section = stress_section(result, tmp_path, Figures())
     assert "FAIL: 2 of 3 families." in section and "<strong>fail</strong>" in section
+
+
+def study_of(*rows, points=()):
+    rows = [{"device": "threads:1", "device_name": "threads", "width": 8, "height": 8, "precision": "float",
+             "figures": {}, "verdict": "right", **row} for row in rows]
+    return Study(0, {"rows": rows}, {"points": [{**rows[0], **point} for point in points]}, {}, *[None] * 3, None)
+
+
+def test_the_largest_picture_has_the_most_samples_also_where_pixels_differ_in_them():
+    study = study_of(*[{"aa": aa, "samples": samples, "figures": {"trace": {}}}
+                       for aa, samples in (("none", 1), ("adaptive:0.1", None), ("grid:2", 4))])
+    assert [row["aa"] for row in study.largest()] == ["adaptive:0.1"]
+
+
+def test_the_verdict_and_the_exit_code_count_points_too():
+    failed = {"verdict": "failed", "figures": None, "samples": 1}
+    study = study_of(failed, points=[{}, {"verdict": "wrong"}])
+    assert "Of 3 combinations, 1 gave a wrong picture and 2 failed." in sections.verdict_details(study)
+    assert [report.exit_code([one], None) for one in (study, study_of(failed))] == [1, 5]
+    assert report.exit_code([study_of({})], {"passed": False}) == 1
+
+
+def test_a_page_is_written_through_a_link_and_keeps_its_mode(tmp_path):
+    (tmp_path / "page.html").touch(0o600)
+    (tmp_path / "link.html").symlink_to("page.html")
+    report._write(tmp_path / "link.html", b"page")
+    assert (tmp_path / "link.html").is_symlink() and (tmp_path / "page.html").read_bytes() == b"page"
+    assert (tmp_path / "page.html").stat().st_mode & 0o777 == 0o600 and len(list(tmp_path.iterdir())) == 2
