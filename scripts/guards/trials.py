@@ -47,6 +47,10 @@ class Tree:
         files = self.must("git", "ls-files", "--cached", "--others", "--exclude-standard", cwd=ROOT)
         for file in files.splitlines():
             self.copy(ROOT / file, self.root / file)
+        for folder in {file.partition("/")[0] for file in files.splitlines() if "/" in file}:
+            for path in (self.root / folder).rglob("*"):  # of a file that is gone, CMake would find the copy
+                if path.is_file() and not (ROOT / path.relative_to(self.root)).exists():
+                    path.unlink()
         self.must("cmake", "-S", ".", "-B", self.build_folder, "-G", "Ninja",
                   "-DMIRRORBALL_TESTS=ON", "-DCMAKE_UNITY_BUILD=OFF", *one_isa())
 

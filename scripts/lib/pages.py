@@ -12,8 +12,10 @@ NUMERICS = ROOT / "docs" / "numerics.md"
 BENCH_STAMP = "MIRRORBALL_BENCH_STAMP"
 
 
-def replace_between_marks(page, name, text):
-    """Puts the text between the page's lines `<!-- NAME: begin -->` and `<!-- NAME: end -->`."""
+def replace_between_marks(page, name, text, is_whole=True):
+    """Puts the text between the page's lines `<!-- NAME: begin -->` and `<!-- NAME: end -->`; prints a part."""
+    if not is_whole:
+        return print(text, end="")
     begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->\n"
     before, rest = page.read_text(encoding="utf-8").split(begin)
     _, after = rest.split(end)
