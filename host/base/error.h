@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// How the program ends; the numbers are part of the interface (README, "Exit codes").
+/// How the program ends; the numbers are part of the interface (docs/features.md, "Exit codes").
 enum class ExitCode : int {
     done = 0,
     different = 1,

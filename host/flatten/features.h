@@ -10,8 +10,8 @@
 namespace rt {
 
 /// What a scene can need from the kernels: the switches of kernels/features.h, in the order of its
-/// RT_FEATURE_BITS. Coarse and few: a test builds and renders each alone, each pair, and all but
-/// each one.
+/// RT_FEATURE_BITS. Coarse and few: tests render each alone, and every set that a scene can
+/// need.
 namespace feature {
 enum Index : std::size_t {
     spheres,

@@ -26,7 +26,7 @@ struct AaMode {
     int count = 2;         ///< grid 2 is the paper's four buffers at .25 and .75
     double threshold = 0;  ///< adaptive: channel difference, clamped to 0..1; edges: tolerance
 
-    /// Samples per pixel; in adaptive and edges modes, of the centers.
+    /// Samples per pixel; in adaptive and edges modes, of the first round.
     int samples() const;
 
     /// Samples per pixel where every pixel has as many.
