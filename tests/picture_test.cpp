@@ -3,6 +3,12 @@
 // Whole pictures: the same bits from every renderer, and how far float is from double.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
+#include "host/base/files.h"
+#include "host/flatten/flat_scene.h"
+#include "host/picture/picture_journal.h"
 #include "host/scene/scene_file.h"
 #include "tests/render_helpers.h"
 
@@ -94,6 +100,23 @@ INSTANTIATE_TEST_SUITE_P(AaModes, EveryAaMode,
                                          std::make_tuple("grid:3", Filter::tent),
                                          std::make_tuple("sobol:16", Filter::gaussian),
                                          std::make_tuple("grid:4", Filter::mitchell)));
+
+TEST(PictureJournal, DiscardsWhatIsBeingWritten) {
+    const TemporaryFolder folder;
+    RenderSettings settings;
+    settings.journal = folder.name() + "/picture.mbj";
+    settings.journal_delay = 1e-3;
+    RenderStats stats;
+    stats.picture.region = {0, 0, 2048, 2048};
+    const FlatScene<float> scene = flatten<float>(load_named_scene("empty"));
+    const Film<float> film(2048, 2048);
+    PictureJournal<float> journal(settings, stats, scene, "", [](const std::string&) {});
+    journal.begin(film, "device");
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    journal.tile_finished(stats.picture.region);
+    journal.discard();
+    EXPECT_EQ(std::filesystem::file_size(settings.journal), 0u);
+}
 
 class PaperScene : public testing::TestWithParam<int> {
    protected:

@@ -220,19 +220,20 @@ void JournalKeeper<T>::tile_finished(const Rect& tile) {
 template <typename T>
 void JournalKeeper<T>::write(bool is_last) {
     std::vector<std::byte> records, body;
+    std::vector<Rect> tiles;
     {
         const std::scoped_lock lock(mutex_);
         if (tiles_.empty() && !is_last) return;
         records.swap(writer_);
-        for (const Rect& tile : tiles_) {
-            const Film<T> part = part_of(film_, shown_, tile);
-            const auto rect = std::as_bytes(std::span(&tile, 1));
-            const auto values = std::as_bytes(std::span(part.rgb));
-            body.assign(rect.begin(), rect.end());
-            body.insert(body.end(), values.begin(), values.end());
-            append_record(records, RecordKind::tile, body);
-        }
-        tiles_.clear();
+        tiles.swap(tiles_);
+    }
+    for (const Rect& tile : tiles) {
+        const Film<T> part = part_of(film_, shown_, tile);
+        const auto rect = std::as_bytes(std::span(&tile, 1));
+        const auto values = std::as_bytes(std::span(part.rgb));
+        body.assign(rect.begin(), rect.end());
+        body.insert(body.end(), values.begin(), values.end());
+        append_record(records, RecordKind::tile, body);
     }
     if (is_last) append_record(records, RecordKind::finished, {});
     file_.append(records);

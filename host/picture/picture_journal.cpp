@@ -133,7 +133,8 @@ void PictureJournal<T>::read() {
     try {
         file_->read(read_if_ours);
     } catch (const DamagedJournal&) {
-        is_ours_ = settings_.fresh;  // damaged, so --fresh may replace it
+        is_ours_ = true;  // nobody can resume it
+        if (!settings_.fresh) say_(file_->path() + ": its start is damaged; starting over");
     } catch (const Error& error) {
         if (error.exit_code() != ExitCode::input) throw;  // otherwise it is of another version
     }
@@ -198,6 +199,7 @@ void PictureJournal<T>::tile_finished(const Rect& tile) {
 
 template <typename T>
 void PictureJournal<T>::discard() {
+    keeper_.reset();  // it may be writing the file's start
     const bool is_ours = file_ && file_->exists();
     start_again();
     if (is_ours) file_->empty();

@@ -233,6 +233,14 @@ class Resume(JournalTest):
         self.assertNotIn("resuming from", result.stderr)
         self.assertEqual(self.files(), ["out.png"])
 
+    def test_of_which_the_start_is_damaged_begins_anew(self):
+        self.share("0/2", "part.mbj", *SMALL)
+        whole = self.bytes_of("part.mbj")
+        for length in [8, 100]:
+            (self.folder / "part.mbj").write_bytes(whole[:length])
+            self.assertIn("its start is damaged; starting over", self.share("0/2", "part.mbj", *SMALL).stderr)
+            self.assertGreaterEqual(len(self.bytes_of("part.mbj")), len(whole) - 100)
+
     def test_that_ends_in_the_middle_of_a_tile(self):
         self.share("0/1", "out.png.mbj", *SMALL)
         (self.folder / "out.png.mbj").write_bytes(self.bytes_of("out.png.mbj")[:-20])
