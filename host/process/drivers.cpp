@@ -18,7 +18,6 @@
 #include "host/base/console.h"
 #include "host/base/parallel.h"
 #include "host/base/text.h"
-#include "host/process/stop_signal.h"
 #include "host/record/record.h"
 
 namespace rt {
@@ -203,7 +202,6 @@ WorkerEnd run_without_bad_drivers(const WorkerCommand& command, const std::strin
             end = run_worker(again);
         }
     }
-    if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
     return end;
 }
 

@@ -103,20 +103,11 @@ std::int64_t milliseconds_now() {
     return now.tv_sec * std::int64_t{1000} + now.tv_nsec / 1000000;
 }
 
-void stop_setting_up(int number, siginfo_t* info, void*) {
-    number = meant_number(number, info);
-    if (number != 0) end_unsaved(of_number(number));
-}
-
-void stop_working(int number, siginfo_t* info, void* context) {
-    if (stops_at_once > 0) return stop_setting_up(number, info, context);
-    number = meant_number(number, info);
-    if (number == 0) return;
-    const int saved = errno;
-    const StopSignal& signal = of_number(number);
+void stop_working(const StopSignal& signal) {
+    std::int64_t never = 0;
+    received_at.compare_exchange_strong(never, milliseconds_now());
     int none = 0;
-    if (received.compare_exchange_strong(none, number)) {
-        received_at = milliseconds_now();
+    if (received.compare_exchange_strong(none, signal.number)) {
         if (!stops_quietly && signal.by_hand) {
             write_line("stopping, saving what is finished; interrupt again to quit at once", "");
         } else if (!stops_quietly) {
@@ -125,11 +116,9 @@ void stop_working(int number, siginfo_t* info, void* context) {
     } else if (signal.by_hand && milliseconds_now() - received_at > echo) {
         end_by(signal);
     }
-    errno = saved;
 }
 
-void pass_on(int number, siginfo_t* info, void* context) {
-    const int saved = errno;
+void pass_on(int number) {
     passed_on = number;
     sigval value{};
     value.sival_int = number;
@@ -137,25 +126,18 @@ void pass_on(int number, siginfo_t* info, void* context) {
         ::sigqueue(to, forwarding_signal(), value);
         ::kill(to, SIGCONT);  // one that is stopped would not save anything
     }
-    if (is_working) stop_working(number, info, context);  // this process has work of its own
-    errno = saved;
 }
 
-using Handler = void (*)(int, siginfo_t*, void*);
-
-void handle_stop_signals(Handler handler) {
-    const auto handle = [&](int number, bool is_ignored) {
-        struct sigaction action {};
-        if (is_ignored) {
-            action.sa_handler = SIG_IGN;
-        } else {
-            action.sa_sigaction = handler;
-        }
-        action.sa_flags = SA_RESTART | (is_ignored ? 0 : SA_SIGINFO);
-        sigaction(number, &action, nullptr);
-    };
-    for (const StopSignal& signal : stop_signals) handle(signal.number, signal.ignored);
-    if (parent != 0) handle(forwarding_signal(), false);
+void handle(int number, siginfo_t* info, void*) {
+    const int saved = errno;
+    const bool has_worker = worker != 0, works = is_working;
+    if (has_worker) pass_on(number);
+    number = meant_number(number, info);
+    if (number != 0 && (works || !has_worker)) {
+        if (!works || stops_at_once > 0) end_unsaved(of_number(number));
+        stop_working(of_number(number));
+    }
+    errno = saved;
 }
 
 }  // namespace
@@ -172,16 +154,34 @@ void prepare_signals() {
     }
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGCHLD, SIG_DFL);  // ignored, nobody learns how a driver's compiler ended
     restore_stop_signals();
 }
 
 void restore_stop_signals() {
-    handle_stop_signals(worker != 0 ? pass_on : is_working ? stop_working : stop_setting_up);
+    const auto install = [](int number, bool is_ignored) {
+        struct sigaction action {};
+        if (is_ignored) {
+            action.sa_handler = SIG_IGN;
+        } else {
+            action.sa_sigaction = handle;
+        }
+        action.sa_flags = SA_RESTART | (is_ignored ? 0 : SA_SIGINFO);
+        sigaction(number, &action, nullptr);
+    };
+    for (const StopSignal& signal : stop_signals) install(signal.number, signal.ignored);
+    if (parent != 0) install(forwarding_signal(), false);
 }
 
 void install_stop_signals() {
     is_working = true;
     restore_stop_signals();
+}
+
+void note_stop(int number) {
+    install_stop_signals();
+    received_at = milliseconds_now();
+    received = number;
 }
 
 void stop_after(double seconds) {
@@ -213,7 +213,6 @@ void pass_stop_signals_to(const std::function<pid_t()>& start) {
     pthread_sigmask(SIG_BLOCK, &stops, &before);
     worker = start();
     passed_on = 0;
-    restore_stop_signals();
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 

@@ -30,6 +30,9 @@ void restore_stop_signals();
 /// ignored. Call it after OpenCL has started: its runtimes replace existing handlers.
 void install_stop_signals();
 
+/// As if this stop signal had come after install_stop_signals, without a message.
+void note_stop(int number);
+
 /// Sends this process SIGALRM after so many seconds.
 void stop_after(double seconds);
 

@@ -238,6 +238,7 @@ WorkerEnd run_worker(const WorkerCommand& command) {
     const int passed = passed_stop_signal();
     pass_stop_signals_to([] { return 0; });
     if (end.is_regular) return end;
+    if (WIFSIGNALED(wait_status) && WTERMSIG(wait_status) == passed) end_by_stop_signal(passed);
     end.stop_signal = passed;
     if (!end.how.empty()) return end;
     end.how = WIFSIGNALED(wait_status)

@@ -25,7 +25,7 @@ struct WorkerEnd {
     bool is_started = false;
     bool is_regular = false;  ///< it reported its exit itself, with this status
     int status = 0;           ///< exit code
-    int stop_signal = 0;      ///< signal that ended it, and should end this process
+    int stop_signal = 0;      ///< signal that it should have ended by, as should this process
     std::string how;          ///< otherwise: "was killed by SIGABRT", "did not end in time"
     std::string task;         ///< what a driver was doing
     std::vector<std::string> records;  ///< what it told with tell_parent
@@ -33,11 +33,11 @@ struct WorkerEnd {
     bool has_failed() const { return !is_regular && stop_signal == 0; }
 };
 
-/// Runs the program again and waits. Stop signals are forwarded to the worker. While a driver works
-/// there, it counts as hung after `deadline` seconds in which neither it nor its children computed,
-/// or 60 times as many in which they did, without progress. A worker that is hung, or takes longer
-/// than `longest`, is killed with its children. Throws what `told` throws: then end this process,
-/// and the worker ends with it.
+/// Runs the program again and waits. Stop signals are forwarded to the worker; one that ends it at
+/// once ends this process, too. While a driver works there, it counts as hung after `deadline`
+/// seconds in which neither it nor its children computed, or 60 times as many in which they did,
+/// without progress. A worker that is hung, or takes longer than `longest`, is killed with its
+/// children. Throws what `told` throws: then end this process, and the worker ends with it.
 WorkerEnd run_worker(const WorkerCommand& command);
 
 /// Ends this process as its worker ended, if a stop signal ended that.

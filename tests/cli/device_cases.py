@@ -3,9 +3,12 @@
 import json
 import os
 import pathlib
+import signal
+import subprocess
 import unittest
 
-from harness import NO_DRIVERS, CliTest, image_hash, scene_path
+from harness import NO_DRIVERS, CliTest, clean_environment, image_hash, scene_path
+from program import PROGRAM
 
 TWO_DEVICES = {"POCL_DEVICES": "pthread pthread"}
 
@@ -142,6 +145,13 @@ class Choice(CliTest):
         result = self.render("single-sphere", "--size", "4", "--device", "pocl", "--precision", "double", "--lanes",
                              "16", "--no-fallback", env={"POCL_CACHE_DIR": str(self.folder / "cold")})
         self.assertNotIn("warning", result.stderr)
+
+    def test_a_parent_that_ignores_its_children_breaks_no_driver(self):
+        result = subprocess.run([PROGRAM, "render", scene_path("empty"), "--size", "4", "--device", "pocl",
+                                 "--no-fallback"], capture_output=True, text=True, check=False,
+                                env=clean_environment({"POCL_CACHE_DIR": str(self.folder / "cold")}),
+                                preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_ambiguous_lists_the_candidates(self):
         for spec in ["pocl", "cpu", "name:pthread"]:

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import time
 
 from driver_case import SCENE, WrongDriver
@@ -102,6 +103,28 @@ class Dies(WrongDriver):
     def test_late_is_gone_on_with_though_it_began_anew(self):
         result = self.die_late("--shard", "0/1", "--fresh", "-o", str(self.folder / "part.mbj"))
         self.assertRegex(result.stderr, r"resuming from .*part\.mbj, which has [1-9]\d* %")
+
+    def stop_late(self, by, *arguments, stops=None):
+        """The exit code where a driver does not end, in the middle of a picture; its finished part is saved."""
+        process = self.start(*self.LATE, "--tile", "16", "--threads", "1", "--resume", "--deadline", "2", "-o", "out.png",
+                             *arguments, env={"LD_PRELOAD": SHIM, "CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel",
+                                              "CL_SHIM_DIE_BY": by, "CL_SHIM_DIE_AT": "20", "CL_SHIM_DIE_AFTER": "1"})
+        worker, last, now = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children"), "", []
+        while stops and process.poll() is None and (last != now or not (self.folder / "out.png.mbj").exists()):
+            time.sleep(0.5)  # until it computes no more
+            children = worker.read_text().split()
+            last, now = now, [pathlib.Path(f"/proc/{child}/stat").read_text().split()[13:15] for child in children]
+        if stops:
+            process.send_signal(stops)
+        said = process.communicate()[1]
+        self.assertTrue((self.folder / "out.partial.png").exists(), said)
+        return process.returncode
+
+    def test_late_by_hanging_it_leaves_what_is_finished_to_ctrl_c(self):
+        self.assertEqual(self.stop_late("hang", stops=signal.SIGINT), 130)
+
+    def test_late_for_ever_it_leaves_what_is_finished_to_the_timeout(self):
+        self.assertEqual(self.stop_late("spin", "--timeout", "3"), 8)
 
     def test_busy_for_ever_it_ends_at_the_timeout(self):
         self.run_with({}, *self.ARGUMENTS)  # compiles
