@@ -38,7 +38,13 @@ std::optional<PictureMetadata> metadata_in(
     return std::nullopt;
 }
 
-/// Whether a file says that it is an unfinished picture. Only PNG and EXR can.
+/// Whether a file of this format says what it shows.
+bool has_metadata(const std::string& path) {
+    const auto format = known_picture_format(path);
+    return format == PictureFormat::png || format == PictureFormat::exr;
+}
+
+/// Whether a file says that it is an unfinished picture.
 bool is_unfinished(const std::optional<PictureMetadata>& metadata) {
     return metadata && !text_in(*metadata, partial_mark).empty();
 }
@@ -74,8 +80,7 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
 }
 
 bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) {
-    const auto format = known_picture_format(path);
-    if (format != PictureFormat::png && format != PictureFormat::exr) return true;
+    if (!has_metadata(path)) return true;
     const auto found = metadata_in(path, read_picture_file);  // to its end: a copy may be cut
     return found &&
            (text_in(*found, scene_hash_key).empty() ||
@@ -114,7 +119,9 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
         path = partial_path(path);
         std::error_code unknown;  // then writing it says why
-        if (std::filesystem::exists(path, unknown) && !is_unfinished(metadata_in(path))) {
+        const bool is_ours =
+            has_metadata(path) ? is_unfinished(metadata_in(path)) : stats.resumed > 0;
+        if (!is_ours && std::filesystem::exists(path, unknown)) {
             print_note(printable(path) +
                        ": exists and is not an unfinished picture; saving nothing there");
             return "";

@@ -109,6 +109,12 @@ class Interrupted(CliTest):
             self.assertIn("the finished part is in out.partial.png", self.interrupted("out.png"))
         self.assertEqual(self.pictures(), ["out.partial.png"])
 
+    def test_again_where_a_format_has_no_metadata(self):
+        for _ in range(2):
+            process = self.start_and_wait_until_tiles_are_done("threads", "out.pfm", "--resume")
+            lines = self.stop(process, signal.SIGINT)[1]
+            self.assertIn("the finished part is in out.partial.pfm", lines[-1])
+
     def test_an_unfinished_picture_never_takes_the_place_of_an_input(self):
         self.render("single-sphere", "--size", "8", "-o", "out.partial.png")
         self.assert_refused(self.run_cli("render", scene_path("single-sphere"), "--size", "8", "-o", "out.png",
