@@ -221,6 +221,7 @@ class PictureBlame {
         blame_.text += fmt::format("no function is wrong alone, but {} is, with {}\n",
                                    golden_.name(), base_.what);
         vary();
+        const DriverTask task(device_.name);  // vary's checks have ended the last one
         try {
             const Film<T> right = rendered(*make_threads_renderer<T>(flat_, {}));
             explain(right);

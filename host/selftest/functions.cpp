@@ -26,8 +26,8 @@ namespace rt {
 namespace {
 
 /// One work-group size: PoCL compiles a kernel again for any other.
-constexpr std::size_t group = 64;
-constexpr std::size_t most_launch_items = 65536 - group;
+constexpr std::size_t usual_group = 64;
+constexpr std::size_t most_launch_items = 65536 - usual_group;
 
 /// Of the file before it is compressed: {function, is_double, count, {inputs}, {outputs}}, which
 /// tests/kernel_runner.cpp writes.
@@ -58,8 +58,11 @@ std::vector<ProbeRecord> recorded_probes() {
     return records;
 }
 
-ProbeDevice::ProbeDevice(const ClDevice& device)
-    : device_(device), queue_(programs_.context(device_), handle_of(device_)) {}
+ProbeDevice::ProbeDevice(const ClDevice& device) try
+    : device_(device), queue_(programs_.context(device_), handle_of(device_)) {
+} catch (const cl::Error& error) {
+    throw_device_error(device, error);
+}
 
 ProgramOptions probe_program(ProgramOptions build, const ProbeRecord& launch) {
     build.precision = launch.is_double ? Precision::float64 : Precision::float32;
@@ -90,6 +93,8 @@ void ProbeDevice::launch(const ProgramOptions& build, ProbeRecord& record) {
         }
     }
     kernel.setArg(1, static_cast<cl_uint>(record.count));
+    const std::size_t group = std::min(
+        usual_group, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(handle_of(device_)));
     const std::size_t lanes = static_cast<std::size_t>(build.lanes);
     const std::size_t packets = (record.count + lanes - 1) / lanes;
     const std::size_t most_items = record.in_one_launch ? packets : most_launch_items;

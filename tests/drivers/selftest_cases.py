@@ -53,6 +53,10 @@ class Selftest(WrongDriver):
         self.selftest(0, "--filter", "dot3/float/1", "--json", str(report))
         self.assertEqual(len(json.loads(report.read_text())["checks"]), 1)
 
+    def test_a_device_that_cannot_be_opened_is_no_bug_of_ours(self):
+        result = self.selftest(5, shim={"CL_SHIM_DIE_IN": "clCreateContext", "CL_SHIM_DIE_BY": "error"})
+        self.assertRegex(result.stderr, "pthread.* failed in clCreateContext: CL_OUT_OF_HOST_MEMORY")
+
     def test_results_on_stdout_come_alone(self):
         said = [self.selftest(0, "--filter", "dot3/float/1", option, "-").stdout for option in ["--json", "--junit"]]
         self.assertEqual(json.loads(said[0])["format"], "mirrorball-selftest")
