@@ -209,6 +209,8 @@ class TevViewer : public Viewer {
 
     void give_up(const std::string& why) {
         socket_ = FileDescriptor();
+        packets_.clear();
+        sent_ = 0;
         say_(why);
     }
 
