@@ -7,10 +7,10 @@
 //   CL_SHIM_LOG                a file for the options of each build, one line each
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
-//   CL_SHIM_GPU                if not empty, devices are GPUs
-//   CL_SHIM_NO_CHILD           if not empty, no child process can be started
-//   CL_SHIM_DIE_IN             the function whose call fails
-//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error, or delay (2 s); for
+//   CL_SHIM_GPU                if not empty, devices are GPUs, whose work groups have at most 32
+//   items CL_SHIM_NO_CHILD           if not empty, no child process can be started CL_SHIM_DIE_IN
+//   the function whose call fails CL_SHIM_DIE_BY             how: abort, segfault, exit, hang,
+//   spin, error, or delay (2 s); for
 //                              clGetEventInfo, by error means that an event stays submitted
 //   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
@@ -23,6 +23,7 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -190,7 +191,21 @@ bool has_failed() {
     return !first.empty() && launches >= std::stoi(first);
 }
 
+std::size_t most_in_group() { return setting("CL_SHIM_GPU").empty() ? 4096 : 32; }
+
 }  // namespace
+
+extern "C" cl_int clGetKernelWorkGroupInfo(cl_kernel kernel, cl_device_id device,
+                                           cl_kernel_work_group_info name, std::size_t size,
+                                           void* value, std::size_t* needed) {
+    const cl_int error = real<decltype(clGetKernelWorkGroupInfo)>("clGetKernelWorkGroupInfo")(
+        kernel, device, name, size, value, needed);
+    if (name == CL_KERNEL_WORK_GROUP_SIZE && value != nullptr) {
+        auto& most = *static_cast<std::size_t*>(value);
+        most = std::min(most, most_in_group());
+    }
+    return error;
+}
 
 extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel,
                                          cl_uint dimensions, const std::size_t* offset,
@@ -199,6 +214,7 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
     if (die_in("clEnqueueNDRangeKernel")) return CL_OUT_OF_HOST_MEMORY;
     ++launches;
     if (has_failed()) return CL_OUT_OF_RESOURCES;
+    if (local != nullptr && *local > most_in_group()) return CL_INVALID_WORK_GROUP_SIZE;
     return real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
         queue, kernel, dimensions, offset, size, local, count, waits, event);
 }

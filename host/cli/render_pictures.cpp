@@ -235,11 +235,11 @@ class Pictures {
         stats.phases.load = load_seconds;
         settle();
         written_ = at;
-        writing_ = std::async(std::launch::async, [=, this, rendered = std::move(rendered),
-                                                   reference = std::move(reference)]() mutable {
-            return finish(at, options, std::move(rendered), reference,
-                          [&] { return seconds_before_main_ + total.seconds() - uncounted; });
-        });
+        writing_ = std::async(
+            [=, this, rendered = std::move(rendered), reference = std::move(reference)]() mutable {
+                return finish(at, options, std::move(rendered), reference,
+                              [&] { return seconds_before_main_ + total.seconds() - uncounted; });
+            });
         if (own) wait_for_viewers(*own);
     }
 

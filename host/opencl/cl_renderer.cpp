@@ -94,6 +94,7 @@ class ClFilm {
                 buffer_, CL_TRUE, CL_MAP_READ, row * static_cast<std::size_t>(rect.y),
                 row * static_cast<std::size_t>(rect.height));
             reads.enqueueUnmapMemObject(buffer_, mapped);
+            reads.finish();
             return;
         }
         if (rect.width == film_.width) {
@@ -167,7 +168,7 @@ class ClRenderer : public Renderer<T> {
                 const Stopwatch finishing;
                 on_device.finish();
                 times_.read_back += finishing.seconds();
-            } catch (const cl::Error&) {
+            } catch (...) {
                 queue.add_rays(counted_before - counted_);  // negative: those of others remain
                 for (const InFlight& launch : progress.in_flight) queue.give_back(launch.run);
                 throw;
@@ -236,7 +237,7 @@ class ClRenderer : public Renderer<T> {
         queue_.enqueueNDRangeKernel(kernel, cl::NullRange, whole_groups, group_, nullptr, &event);
     }
 
-    std::size_t count_slots() const { return divided_up(most_items(device_), group_) * group_; }
+    std::size_t count_slots() const { return most_items(device_) + group_; }
 
     void open() {
         const Stopwatch watch;
@@ -286,6 +287,11 @@ class ClRenderer : public Renderer<T> {
         sum_counts_ = cl::Kernel(program, "sum_counts");
         sum_counts_.setArg(0, counts_);
         sum_counts_.setArg(2, static_cast<typename Flat<T>::Index>(kept_slots));
+        for (const cl::Kernel* kernel : {&render_, &round_, &resolve_}) {
+            if ((*kernel)() == nullptr) continue;
+            group_ = std::min(
+                group_, kernel->getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(handle_of(device_)));
+        }
         FlatTile nothing{};
         nothing.width = 1;  // kernels divide by the width
         launch(nothing, cl::Buffer());
@@ -351,11 +357,11 @@ class ClRenderer : public Renderer<T> {
             if (progress.in_flight.size() < launches_in_flight) continue;
             finish_oldest(progress, region);
             if (since_count.seconds() < progress_seconds) continue;
-            count_rays(progress.queue);
+            count_rays(progress.queue, progress.in_flight);
             since_count.lap();
         }
         while (!progress.in_flight.empty()) finish_oldest(progress, region);
-        count_rays(progress.queue);
+        count_rays(progress.queue, progress.in_flight);
     }
 
     /// Reads the oldest launch back while the next one runs.
@@ -383,12 +389,13 @@ class ClRenderer : public Renderer<T> {
     }
 
     /// Adds to the queue the rays traced since the last call.
-    void count_rays(TileQueue& queue) {
+    void count_rays(TileQueue& queue, const std::deque<InFlight>& in_flight) {
         if (!device_.is_cpu() && used_slots_ > kept_slots) {
             sum_counts_.setArg(1, static_cast<typename Flat<T>::Index>(used_slots_));
             queue_.enqueueNDRangeKernel(sum_counts_, cl::NullRange, kept_slots);
             used_slots_ = kept_slots;
         }
+        if (!device_.is_cpu() && !in_flight.empty()) wait_idly(in_flight.back().events.back());
         auto* const mapped = static_cast<FlatCounts*>(queue_.enqueueMapBuffer(
             counts_, CL_TRUE, CL_MAP_READ, 0, used_slots_ * sizeof(FlatCounts)));
         RayCounts total;

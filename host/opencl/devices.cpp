@@ -84,8 +84,9 @@ std::vector<cl::Device> devices_of(const cl::Platform& platform) {
 }
 
 void list_platform(const cl::Platform& platform, int platform_index, ClDeviceList& list) {
-    const std::string name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+    std::string name = std::to_string(platform_index);
     try {
+        name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
         const std::vector<cl::Device> devices = devices_of(platform);
         if (devices.empty()) list.problems.push_back(why_no_device(name));
         int device_index = 0;
@@ -358,14 +359,9 @@ DeviceChoice choose_device(const std::string& text, const ClDeviceList& list) {
 std::future<std::vector<DeviceChoice>> find_devices(const std::string& list, int threads,
                                                     const std::function<void()>& loaded) {
     const auto find = [=] { return DeviceFinder(threads, loaded).find(list); };
-    if (needs_opencl(list)) {
-        prepare_pocl(threads);
-        try {
-            return std::async(std::launch::async, find);
-        } catch (const std::system_error&) {  // no thread available: search later
-        }
-    }
-    return std::async(std::launch::deferred, find);
+    if (!needs_opencl(list)) return std::async(std::launch::deferred, find);
+    prepare_pocl(threads);
+    return std::async(find);  // deferred where no thread can start
 }
 
 }  // namespace rt

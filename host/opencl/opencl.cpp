@@ -208,10 +208,13 @@ cl::Context OpenDevices::context(const ClDevice& device) {
 cl::Program OpenDevices::program(const ClDevice& device, const char* source,
                                  const ProgramOptions& options) {
     const cl::Context of = context(device);
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     cl::Program& program = programs_[{device.handle, source, build_options(device, options)}];
-    if (program() == nullptr) program = build_program(of, device, source, options);
-    return program;
+    if (program() != nullptr) return program;
+    lock.unlock();  // compiling may take long, or for ever
+    const cl::Program built = build_program(of, device, source, options);
+    lock.lock();
+    return program = built;
 }
 
 void throw_device_error(const ClDevice& device, const cl::Error& error) {
