@@ -197,6 +197,21 @@ TEST(ParseObj, LinesAreTakenAsTheyCome) {
     EXPECT_EQ(mesh.face_materials, std::vector<int>{-1});
 }
 
+/// The passes over a file disagreed about its vertices here, and faces had indices beyond them.
+TEST(ParseObj, ABackslashAtTheEndOfANameBelongsToIt) {
+    for (const std::string word : {"usemtl", "mtllib"}) {
+        for (const std::string name : {"a\\", " C:\\x\\", "\\\na\\", "a # b\\", "#\\", "\\\n"}) {
+            const std::string text =
+                "v 0 0 0\nv 1 0 0\n" + word + " " + name + "\nv 0 1 0\nf 1 2 3\nf 1 2 -1\n";
+            for (const std::size_t chunk : {1, 100}) {
+                const Scene::Mesh mesh = parse_obj(text, "t.obj", {}, {1, chunk}).mesh;
+                EXPECT_EQ(mesh.positions, (Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << text;
+                EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}, {0, 1, 2}})) << text;
+            }
+        }
+    }
+}
+
 TEST(ParseObj, PointsAndLinesAreCounted) {
     const Model model = obj(square + "p 1\nl 1 2\nf 1 2 3\n");
     EXPECT_EQ(model.notes,

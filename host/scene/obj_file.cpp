@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "host/base/text.h"
@@ -34,10 +33,6 @@ constexpr std::string_view ignored_words[] = {
     "d_interp", "usemap", "maplib", "shadow_obj", "trace_obj", "stech", "ctech"};
 constexpr std::string_view known_words[] = {"v", "vn", "vt", "f",      "g",     "o",
                                             "s", "l",  "p",  "usemtl", "mtllib"};
-
-bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
-    return std::ranges::find(words, word) != words.end();
-}
 
 /// What interrupts the triangles of a chunk: a face that is not a usual one (append_usual_face), or
 /// a usemtl, which has no corners.
@@ -86,6 +81,8 @@ void read_vertices(Chunk& chunk) {
             chunk.positions.push_back(read_three(scanner, "a coordinate", bad_vertex, chunk.notes));
         } else if (word == "vn") {
             chunk.normals.push_back(read_three(scanner, "a normal", bad_normal, chunk.notes));
+        } else if ((word == "usemtl" || word == "mtllib") && scanner.word_follows()) {
+            scanner.rest();  // as the second pass: a backslash at its end belongs to the name
         }
     }
 }
@@ -167,8 +164,8 @@ class FaceReader {
         const std::size_t offset = scanner_.offset();
         const std::string_view word = scanner_.word();
         if (word == "f") return read_face(offset);
-        if (word == "v") return static_cast<void>(++above_.positions);
-        if (word == "vn") return static_cast<void>(++above_.normals);
+        if (word == "v") return count_up(above_.positions, positions_);
+        if (word == "vn") return count_up(above_.normals, all_normals_);
         if (word == "usemtl") {
             ObjMaterials::Use use = rest();
             use.name = printable(use.name);
@@ -177,10 +174,15 @@ class FaceReader {
             chunk_.libraries.push_back(rest());
         } else if (word == "l" || word == "p") {
             notes_.note(not_drawn, offset, "points and lines (p, l) are not drawn");
-        } else if (!is_one_of(word, ignored_words)) {
+        } else if (std::ranges::count(ignored_words, word) == 0) {
             notes_.note(obj_ignored, offset, "unknown statement {}; {}", in_quotes(word),
                         suggestion(word, known_words, "known statements are"));
         }
+    }
+
+    /// Both passes count the same vertices; even if not, no index would be beyond the last.
+    static void count_up(std::size_t& count, const Positions& all) {
+        count = std::min(count + 1, all.size());
     }
 
     ObjMaterials::Use rest() {
