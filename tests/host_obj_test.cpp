@@ -120,6 +120,29 @@ TEST(ParseObj, LibrariesAreFoundUnderOtherSystemsNames) {
     EXPECT_TRUE(model.notes.empty());
 }
 
+TEST(ParseObj, LibrariesOfOneLineAreFoundEachByItself) {
+    const auto open = [](const std::string& name) {
+        if (name == "a.mtl") return LibraryFile{name, "newmtl a\n", {}};
+        if (name == "b.mtl") return LibraryFile{name, "newmtl b\n", {}};
+        return LibraryFile{{}, {}, "'" + name + "' is not there"};
+    };
+    for (const auto& [names, missing] : {std::pair{"a.mtl b.mtl", ""},
+                                         {"C:\\x\\a.mtl C:\\x\\b.mtl", ""},
+                                         {"a.mtl missing.mtl b.mtl", "'missing.mtl'"},
+                                         {"X:\\c.MTL C:\\a.mtl b.mtl no.mtl", "'X:\\c.MTL'"}}) {
+        const Model model = parse_obj(
+            "mtllib " + std::string(names) + "\n" + square + "usemtl b\nf 1 2 3\n", "t.obj", open);
+        ASSERT_EQ(model.materials.size(), 2u) << names;
+        EXPECT_EQ(model.mesh.face_materials, std::vector<int>{1}) << names;
+        std::vector<std::string> notes;
+        if (*missing != 0) {
+            notes.push_back(std::string("t.obj:1:8: ") + missing +
+                            " is not there; until then its materials are gray (1 library missing)");
+        }
+        EXPECT_EQ(model.notes, notes);
+    }
+}
+
 /// This took the square of the number of lines.
 TEST(ParseObj, ManyMissingLibrariesAreOneNote) {
     std::string text;

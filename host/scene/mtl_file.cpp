@@ -202,26 +202,35 @@ class Libraries {
         : model_(model), open_(open), obj_name_(obj_name) {}
 
     /// Adds what an mtllib statement names: one file, if there is one of that name (names may hold
-    /// blanks), else one per word. If there is none, exporters on other systems may have written a
-    /// path of theirs; else the library may be called as the model is. Returns the problem, if any.
+    /// blanks), else one per word. If there is none, the library may be called as the model is.
+    /// Returns the problem, if any.
     std::string add_all(const std::string& names) {
         const std::string problem = add(names);
         if (problem.empty()) return {};
-        std::vector<std::string> words;
-        for (LineScanner scanner(names); scanner.word_follows();)
-            words.emplace_back(scanner.word());
-        const auto adds = [&](const std::string& name) { return add(name).empty(); };
-        if (words.size() > 1 && std::ranges::all_of(words, adds)) return {};
-        words.push_back(names);
-        for (std::string name : words) {
-            std::ranges::replace(name, '\\', '/');
-            if (adds(name) || adds(name.substr(name.rfind('/') + 1))) return {};
+        std::string missing_one;
+        bool has_some = false;
+        for (LineScanner scanner(names); scanner.word_follows();) {
+            const std::string word(scanner.word());
+            const std::string missing_word = add_path(word);
+            has_some = has_some || missing_word.empty();
+            // Other words may be parts of a path with blanks.
+            if (missing_one.empty() && lower(word).ends_with(".mtl")) missing_one = missing_word;
         }
+        if (has_some) return missing_one;
         const std::string of_model = std::filesystem::path(obj_name_).stem().string() + ".mtl";
-        return adds(of_model) ? "" : problem;
+        return add_path(names).empty() || add(of_model).empty() ? "" : problem;
     }
 
    private:
+    /// Adds a file whose name may be a path that an exporter on another system has written.
+    std::string add_path(std::string name) {
+        const std::string problem = add(name);
+        if (problem.empty()) return {};
+        std::ranges::replace(name, '\\', '/');
+        const bool is_there = add(name).empty() || add(name.substr(name.rfind('/') + 1)).empty();
+        return is_there ? "" : problem;
+    }
+
     std::string add(const std::string& name) {
         const auto [known, is_new] = problems_.try_emplace(name);
         if (!is_new) return known->second;
