@@ -37,7 +37,7 @@ TEST(ParseMtl, AnAmbientOfOneIsAnExportersDefaultUnlessTheColorIsWhite) {
     EXPECT_EQ(mtl("Ka 1 1 1\n").ambient, glm::dvec3(1));
     EXPECT_EQ(mtl("Ka 0.9 1 1\nKd 0.5\n").ambient, glm::dvec3(0.9, 1, 1));
     EXPECT_EQ(parse_mtl("newmtl a\nKa 1\nKd .5\nnewmtl b\nKa 1\nKd .4\n", "t.mtl").notes,
-              std::vector<std::string>{"t.mtl:2:3: Ka is 1 whatever the color is, as exporters "
+              std::vector<std::string>{"t.mtl:2:4: Ka is 1 whatever the color is, as exporters "
                                        "write it; Kd takes its place (2 materials affected)"});
 }
 
@@ -90,6 +90,23 @@ TEST(ParseMtl, AnIndexOfZeroIsFineWhereNothingIsGlass) {
     EXPECT_EQ(mtl("Ni 0\nillum 2\n").ior, 1);
     EXPECT_EQ(mtl("Ni 0\nd 0.5\n").ior, 1);
     EXPECT_EQ(mtl("illum 4\nNi 0\nd 1\n").ior, 1);
+}
+
+TEST(ParseMtl, AnIndexBelowZeroIsNotedOnce) {
+    const auto library = parse_mtl("newmtl m\nillum 6\nd 0.5\nNi  -2\n", "t.mtl");
+    EXPECT_EQ(library.materials.at(0).ior, 1);
+    EXPECT_EQ(library.notes,
+              std::vector<std::string>{"t.mtl:4:5: Ni is -2; write an index of refraction above 0, "
+                                       "like 1.5 (1 value ignored)"});
+}
+
+/// This took the square of the number of lines.
+TEST(ParseMtl, ManyMaterialsOfANameAreOneNote) {
+    std::string text;
+    for (int i = 0; i < 200000; ++i) text += "newmtl m\n";
+    const auto library = parse_mtl(text, "t.mtl");
+    ASSERT_EQ(library.notes.size(), 1u);
+    EXPECT_TRUE(library.notes[0].ends_with("(199999 statements ignored)")) << library.notes[0];
 }
 
 TEST(ParseMtl, TransparencyIsTheRestOfDissolveWhichWins) {

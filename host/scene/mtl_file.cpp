@@ -34,7 +34,7 @@ struct Mtl {
     double shininess = 1, ior = 1;
     std::optional<double> dissolve, transparency;
     int illum = 2;
-    std::size_t ambient_offset = 0, ior_offset = 0;  ///< of the Ka and Ni statements
+    std::size_t ambient_offset = 0, ior_offset = 0;  ///< of what follows Ka and Ni
 };
 
 /// Illumination models 3 to 8 trace reflections; 4, 6, 7 and 9 are glass; below 2 there are no
@@ -62,9 +62,9 @@ Scene::Material to_material(const Mtl& mtl, Mistakes& mistakes) {
     material.diffuse *= opacity;
     material.transmission = (1.0 - opacity) * mtl.filter;
     material.ior = mtl.ior > 0 ? mtl.ior : 1;
-    if (mtl.ior == 0) {
+    if (mtl.ior <= 0) {
         mistakes.note(value_ignored, mtl.ior_offset,
-                      "Ni is 0; write an index of refraction above 0, like 1.5");
+                      "Ni is {}; write an index of refraction above 0, like 1.5", mtl.ior);
     }
     return material;
 }
@@ -100,7 +100,7 @@ class MtlReader {
 
     bool read_value(std::string_view word, Mtl& mtl) {
         if (word == "Ka") {
-            mtl.ambient_offset = scanner_.offset();
+            mtl.ambient_offset = scanner_.word_offset();
             read_color(word, mtl.ambient);
         } else if (word == "Kd") {
             read_color(word, mtl.diffuse);
@@ -111,8 +111,8 @@ class MtlReader {
         } else if (word == "Ns") {
             read_amount(word, max_scene_number, mtl.shininess);
         } else if (word == "Ni") {
-            mtl.ior_offset = scanner_.offset();
-            read_amount(word, max_scene_number, mtl.ior);
+            mtl.ior_offset = scanner_.word_offset();
+            mtl.ior = scan_number(scanner_, word, mistakes_, &value_ignored).value_or(mtl.ior);
         } else if (word == "illum") {
             read_illum(mtl);
         } else if (word == "d" || word == "Tr") {
@@ -134,11 +134,9 @@ class MtlReader {
             mistakes_.note(mtl_ignored, offset, "newmtl gives no name; write one after it");
             return;
         }
-        const auto [first, is_new] = offsets_.emplace(mtl_->name, offset);
-        if (is_new) return;
-        mistakes_.note(mtl_ignored, offset,
-                       "material {} is defined twice, first at {}; the first counts",
-                       in_quotes(mtl_->name), mistakes_.place(first->second));
+        if (names_.insert(mtl_->name).second) return;
+        mistakes_.note(mtl_ignored, offset, "material {} is defined above; the first counts",
+                       in_quotes(mtl_->name));
         mtl_->name.clear();
     }
 
@@ -192,7 +190,7 @@ class MtlReader {
     Mistakes mistakes_;
     std::optional<Mtl> mtl_;  ///< the one being read
     std::vector<Scene::Material> materials_;
-    std::unordered_map<std::string, std::size_t> offsets_;
+    std::unordered_set<std::string> names_;
 };
 
 /// Reads libraries into a model: each file once, and the first material of each name.
