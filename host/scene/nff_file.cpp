@@ -52,10 +52,6 @@ constexpr Usage view_parts[] = {{"from", "from x y z"},
                                 {"hither", "hither distance"},
                                 {"resolution", "resolution width height"}};
 
-bool is_entity(std::string_view word) {
-    return std::ranges::find(entities, word, &Usage::word) != std::end(entities);
-}
-
 /// Lines have no meaning: numbers and words are separated by blanks and line ends. A shape that
 /// cannot be read is left out with a note; only the view must be right.
 class NffReader {
@@ -219,19 +215,20 @@ class NffReader {
     void skip_to_entity() {
         if (scanner_.find_word() && !at_line_start()) scanner_.next_line();
         for (; scanner_.find_word(); scanner_.next_line()) {
-            if (!number_follows() && (!skips_words_ || is_entity(LineScanner(scanner_).word())))
-                return;
+            const std::string_view word = LineScanner(scanner_).word();
+            const bool is_entity = std::ranges::count(entities, word, &Usage::word) > 0;
+            if (!number_follows() && (!skips_words_ || is_entity)) return;
         }
     }
 
     /// Of an entity that may appear only once, the last counts.
     void note_repeated(std::string_view word, std::size_t offset,
-                       std::optional<std::size_t>& first) {
-        if (first) {
-            mistakes_.note(statement_ignored, *first, "a second '{}' is at {}; keep one of them",
-                           word, mistakes_.place(offset));
+                       std::optional<std::size_t>& last) {
+        if (last) {
+            mistakes_.note(statement_ignored, offset,
+                           "a second '{}', which counts; keep one of them", word);
         }
-        first = offset;
+        last = offset;
     }
 
     bool read_view(std::size_t offset) {
@@ -424,6 +421,7 @@ class NffReader {
         }
         const bool smooth = normals_.size() == corners_.size();
         if (const auto* blemish = split_polygon(corners_, polygon_work_, parts_)) {
+            has_lost_ = true;
             mistakes_.note(blemish->remedy, offset, blemish->message);
         }
         for (const auto& [a, b, c] : parts_) {
