@@ -333,6 +333,30 @@ TEST(ParsePly, VerticesThatAreNoNumbersOnlyMatterToTheirFaces) {
     }
 }
 
+/// As exporters write the normals of vertices without a face.
+TEST(ParsePly, NormalsThatAreNoNumbersLoseNothingElse) {
+    const std::string header =
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float "
+        "nx\n"
+        "property float ny\nproperty float nz\nelement face 1\n";
+    for (const std::string number : {"nan", "-nan", "inf", "NaN", "1e999", "-nan(ind)"}) {
+        const Model model = text_ply(
+            header + list, "0 0 0 0 0 1\n1 0 0 0 " + number + " 1\n" + "0 1 0 0 0 1\n3 0 1 2\n");
+        EXPECT_EQ(model.mesh.faces, (Faces{{0, 1, 2}})) << number;
+        EXPECT_EQ(model.mesh.normals, (Positions{{0, 0, 1}, {0, 0, 0}, {0, 0, 1}})) << number;
+        ASSERT_EQ(model.notes.size(), 1u) << number;
+        EXPECT_TRUE(model.notes[0].ends_with("(1 normal ignored)")) << model.notes[0];
+    }
+}
+
+TEST(ParsePly, CommentsMayEndWithABackslash) {
+    const Model model = text_ply(
+        "comment C:\\x\\\nobj_info \\\n" + corners_header + "comment \\\r\nelement face 1\n" + list,
+        corners + "3 0 1 2\n");
+    EXPECT_EQ(model.mesh.faces, (Faces{{0, 1, 2}}));
+    EXPECT_TRUE(model.notes.empty());
+}
+
 TEST(ParsePly, HeadersMayHaveLinesAndPropertiesOfTheirOwn) {
     const Model model = text_ply("made by hand\n" + corners_header +
                                      "property uchar pad\nproperty uchar pad\nproperty real\n"

@@ -105,7 +105,7 @@ bool LineScanner::find_word() {
     return true;
 }
 
-std::optional<double> LineScanner::number() {
+std::optional<double> LineScanner::number(bool may_be_infinite) {
     if (!word_follows()) return std::nullopt;
     const char* const start = at_;
     const char* digits = *at_ == '+' && end_ - at_ > 1 && at_[1] != '-' ? at_ + 1 : at_;
@@ -118,7 +118,7 @@ std::optional<double> LineScanner::number() {
         at_ = start;
         return std::nullopt;
     }
-    if (at_word_end() && std::isfinite(value)) return value;
+    if (at_word_end() && (may_be_infinite || std::isfinite(value))) return value;
     at_ = start;
     return std::nullopt;
 }

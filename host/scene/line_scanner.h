@@ -53,9 +53,9 @@ class LineScanner {
     /// Skips empty lines and comments; returns whether there is another word.
     bool find_word();
 
-    /// Reads the next word if it is a number. Otherwise, and for infinities and NaN, consumes
-    /// nothing and returns nothing; underflow gives 0.
-    std::optional<double> number();
+    /// Reads the next word if it is a number. Otherwise, and for infinities and NaN unless asked
+    /// for, consumes nothing and returns nothing; underflow gives 0.
+    std::optional<double> number(bool may_be_infinite = false);
     std::optional<std::int64_t> integer();
 
    private:

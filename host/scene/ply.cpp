@@ -74,7 +74,7 @@ class HeaderReader {
     }
 
     void read_line(std::string_view word) {
-        if (word == "comment" || word == "obj_info") return;
+        if (word == "comment" || word == "obj_info") return static_cast<void>(scanner_.rest());
         if (word == "format") return read_format();
         if (word == "element") return read_element();
         if (word == "property") return read_property();

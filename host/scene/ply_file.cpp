@@ -248,7 +248,7 @@ class Rows {
                 scanner_.word();
             } else if (const auto whole = is_whole(type) ? scanner_.integer() : std::nullopt) {
                 values_.push_back(static_cast<double>(*whole));
-            } else if (const auto number = scanner_.number()) {
+            } else if (const auto number = scanner_.number(true)) {
                 values_.push_back(*number);
             } else {
                 return fail(fmt::format("a value of {} is {}; write a number", row_name(),
