@@ -240,6 +240,15 @@ TEST(PositionOf, ColumnsCountCharacters) {
     EXPECT_EQ(position_of("\xEF\xBB\xBF{\n\xC3\xA4\xE2\x82\xAC!", 10), "2:3");
 }
 
+TEST(PositionOf, EveryLineEndCounts) {
+    const std::string text = "a\r\rb\r\nc\n\rd";
+    const std::vector<std::string> expected{"1:1", "1:2", "2:1", "3:1", "3:2", "3:3",
+                                            "4:1", "4:2", "5:1", "6:1", "6:2"};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(position_of(text, i), expected[i]) << i;
+    }
+}
+
 /// The warnings for a scene seen from (0, 0, 5) along -z, 40 degrees wide.
 std::vector<std::string> warnings_for(const std::string& keys,
                                       const std::string& view = R"("fov_degrees": 40)") {

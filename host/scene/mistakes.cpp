@@ -15,12 +15,15 @@ std::string position_of(std::string_view text, std::size_t offset) {
         offset -= std::min(offset, utf8_byte_order_mark.size());
     }
     const std::string_view before = text.substr(0, std::min(offset, text.size()));
-    const std::size_t newline = before.rfind('\n');
-    const std::string_view line =
-        newline == std::string_view::npos ? before : before.substr(newline + 1);
-    const auto characters =
-        std::count_if(line.begin(), line.end(), [](char c) { return !is_utf8_continuation(c); });
-    const auto lines = std::count(before.begin(), before.end(), '\n');
+    auto lines = std::count(before.begin(), before.end(), '\n');
+    std::size_t start = before.rfind('\n') + 1;
+    for (auto at = before.find('\r'); at != before.npos; at = before.find('\r', at + 1)) {
+        if (text.substr(at + 1, 1) == "\n") continue;
+        ++lines;
+        start = std::max(start, at + 1);
+    }
+    const auto characters = std::ranges::count_if(before.substr(start),
+                                                  [](char c) { return !is_utf8_continuation(c); });
     return fmt::format("{}:{}", lines + 1, characters + 1);
 }
 
