@@ -78,16 +78,18 @@ class TreeBuilder {
     /// Throws the mistake, along with those noted before. `bytes`: read so far.
     bool parse_error(std::size_t bytes, const std::string& /*token*/,
                      const nlohmann::json::exception& error) {
-        constexpr std::string_view delimiters = " \t\r\n,:[]{}\"/";
-        const std::size_t last = std::min(bytes, text_.size() + 1) - 1;
-        const std::size_t start = text_.find_last_of(delimiters, last) + 1;
-        const std::size_t offset = std::min(start, last);
-        const std::size_t end = text_.find_first_of(delimiters, offset + 1);
-        const std::string word = in_quotes(text_.substr(offset, end - offset));
         const std::string_view what = error.what();
         std::string message(what.substr(what.find(" - ") + 3));  // after "syntax error while ..."
         message.erase(std::min(message.find("; last read: "), message.size()));
-        if (message == "invalid literal") message = "invalid word " + word;
+        const bool is_word = message == "invalid literal";  // perhaps up to what was read last
+        constexpr std::string_view delimiters = " \t\r\n,:[]{}\"/";
+        const std::size_t last = std::min(bytes, text_.size() + 1) - 1;
+        const std::size_t start =
+            text_.find_last_of(delimiters, is_word && last > 0 ? last - 1 : last) + 1;
+        const std::size_t offset = std::min(start, last);
+        const std::size_t end = text_.find_first_of(delimiters, offset + 1);
+        const std::string word = in_quotes(text_.substr(offset, end - offset));
+        if (is_word) message = "invalid word " + word;
         const bool is_too_large = error.id == 406;
         fail(offset, is_too_large ? "number " + word + " is too large; write one from -1e30 to 1e30"
                                   : message + "; correct the JSON text");
