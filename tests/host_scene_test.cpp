@@ -318,6 +318,8 @@ TEST(SceneWarnings, NothingInView) {
         EXPECT_TRUE(warnings_for(ball_at(center, gray) + R"(, "ambient_light": 1)").empty())
             << center;
     }
+    const std::string path = R"(, "ambient_light": 1, "path": {"keys": [{"frame": 1}]})";
+    EXPECT_TRUE(warnings_for(ball_at("[0, 0, 7]", gray) + path).empty());
     const std::string ortho = R"("type": "orthographic", "window": [1, 3, -1, 1])";
     EXPECT_TRUE(
         warnings_for(ball_at("[2, 0, 0]", gray) + R"(, "ambient_light": 1)", ortho).empty());

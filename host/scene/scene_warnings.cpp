@@ -120,7 +120,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
             "no light reaches any surface, so all of them are black; add lights, or ambient light "
             "and ambient colors");
     }
-    if (has_shapes(scene) && nothing_in_view(scene)) {
+    if (has_shapes(scene) && scene.path.keys.empty() && nothing_in_view(scene)) {
         warnings.emplace_back(
             "nothing is in view; check the camera's from, at, and angle or window");
     }
