@@ -332,6 +332,7 @@ class Pictures {
         }
         print_notes(notes);
         report(at, status, results_text(stats, options));
+        if (!options.aovs.empty()) scene_.aa = stats.picture.aa;  // which a target chooses
         if (!write_aovs(scene_, stats, options)) return exit_code_of_stop(stop_flag());
         return status;
     }

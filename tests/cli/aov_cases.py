@@ -68,6 +68,12 @@ class Aov(CliTest):
                 self.assertLessEqual(kinds, expected)
                 self.assertEqual(len(kinds) > 1, "grid:3" not in more)
 
+    def test_samples_are_those_of_the_picture_that_met_the_target(self):
+        for aa in [["--aa", "sobol:4"], []]:
+            stats, channels = self.channels(scene_path("glass"), "--size", "48x36", "--target-rmse", "0.004", *aa)
+            self.assertEqual((channels["samples"].sum(), channels["rays"].sum()),
+                             (stats["rays"]["primary"], stats["rays"]["total"]))
+
     def test_a_window_has_the_pixels_of_the_whole(self):
         arguments = [scene_path("many-lights"), "--size", "96x72", "--aa", "adaptive:0.05"]
         whole = self.channels(*arguments)[1]
