@@ -101,7 +101,7 @@ WorkerCommand worker_command(const RenderOptions& options, double seconds_before
 int render_isolated(RenderOptions options, double seconds_before_main) {
     const Stopwatch watch;
     const std::string name = options.device.empty() ? "OpenCL" : "--device " + options.device;
-    if (options.scene == stdin_scene) keep_stdin();  // the worker reads it
+    if (std::ranges::count(options.items, stdin_scene, &BatchItem::scene) > 0) keep_stdin();
     const auto journal_before = journal_time(options);
     const WorkerEnd end = run_without_bad_drivers(worker_command(options, seconds_before_main),
                                                   options.drivers, options.quiet);

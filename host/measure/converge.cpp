@@ -343,10 +343,11 @@ std::vector<PictureSpec> swept_pictures(const ConvergeOptions& options, const Sc
 }
 
 /// What it takes to time each of the points, which are added to the result.
-std::vector<TimedCase> plan(const ConvergeOptions& options, const TimedScene& scene,
-                            const std::vector<int>& bounces, ConvergeResult& result) {
+std::vector<TimedCase> plan(const ConvergeOptions& options, const std::vector<SweptDevice>& devices,
+                            const TimedScene& scene, const std::vector<int>& bounces,
+                            ConvergeResult& result) {
     std::vector<TimedCase> cases;
-    for (const SweptDevice& device : swept_devices(options)) {
+    for (const SweptDevice& device : devices) {
         const DeviceChoice& choice = device.choice;
         for (const PictureSpec& picture : swept_pictures(options, scene.scene, bounces, device)) {
             result.points.emplace_back().asked = {device.spec(), choice.name(), picture};
@@ -401,6 +402,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     ConvergeResult result;
     result.repeats_asked = options.repeats;
     other_load();
+    const auto devices = swept_devices(options);  // a bad driver ends this process before it reads
     TimedScene loaded = load_timed_scene(options.scene, options.light, options.quiet);
     Scene& scene = loaded.scene;
     say_busy(options.quiet);
@@ -410,7 +412,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     result.height = scene.height;
     std::vector<int> bounces = options.max_bounces;
     if (bounces.empty()) bounces.push_back(scene.max_bounces);
-    std::vector<TimedCase> cases = plan(options, loaded, bounces, result);
+    std::vector<TimedCase> cases = plan(options, devices, loaded, bounces, result);
     if (result.points.empty()) {
         throw Error(
             ExitCode::usage,

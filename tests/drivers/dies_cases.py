@@ -9,7 +9,7 @@ import signal
 import time
 
 from driver_case import SCENE, WrongDriver
-from harness import POCL_DRIVER, SCENES, SHIM
+from harness import POCL_DRIVER, SCENES, SHIM, scene_path
 from measure_cases import BENCH
 from program import run
 
@@ -198,6 +198,15 @@ class Dies(WrongDriver):
         self.assertEqual({row["verdict"] for row in json.loads(result.stdout)["rows"]
                           if row["device_name"] != "threads"}, {"right"})
 
+    def test_is_left_out_and_the_scene_from_standard_input_is_read_all_the_same(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
+                "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("bad.icd", "good.icd")}
+        scene = pathlib.Path(scene_path("single-sphere")).read_text(encoding="utf-8")
+        for verb, size in [("bench", "--sizes"), ("converge", "--size")]:
+            result = self.run_with(shim, verb, "-", size, "8", "--aa", "none", "--repeats", "5", "-q",
+                                   text=scene, code=0)
+            self.assertIn("bad.icd: its driver was killed by SIGABRT", result.stderr)
+
     def test_by_computing_for_ever_does_not_hold_up_devices_and_doctor(self):
         shim = {"CL_SHIM_DIE_IN": "clGetDeviceIDs", "CL_SHIM_DIE_BY": "spin"}
         result = self.run_with(shim, "devices", "--json", code=0)
@@ -318,12 +327,19 @@ class DiesInABatch(WrongDriver):
         except OSError:  # it has ended
             return False
 
+    PATH = json.dumps({
+        "image": {"width": 40, "height": 30}, "camera": {"from": [0, 0, 5], "at": [0, 0, 0],
+                                                        "fov_degrees": 40},
+        "materials": {"red": {"ambient": [1, 0, 0]}},
+        "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"}],
+        "path": {"keys": [{"frame": 1, "from": [0, 0, 5]}, {"frame": 6, "from": [2, 0, 5]}]}})
+
     def test_of_frames(self):
-        (self.folder / "path.json").write_text(json.dumps({
-            "image": {"width": 40, "height": 30}, "camera": {"from": [0, 0, 5], "at": [0, 0, 0],
-                                                            "fov_degrees": 40},
-            "materials": {"red": {"ambient": [1, 0, 0]}},
-            "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"}],
-            "path": {"keys": [{"frame": 1, "from": [0, 0, 5]}, {"frame": 6, "from": [2, 0, 5]}]}}))
-        self.assertIn("rendering on threads instead", self.check(
-            0, "", "path.json", "--frames", "1-6", "-o", "%d.png", "--stats=json"))
+        (self.folder / "path.json").write_text(self.PATH)
+        for scene, text in [("path.json", ""), ("-", self.PATH)]:
+            self.assertIn("rendering on threads instead", self.check(
+                0, text, scene, "--frames", "1-6", "-o", "%d.png", "--stats=json"))
+
+    def test_with_a_scene_from_standard_input(self):
+        for scenes in [[*self.scenes, "-"], ["-", *self.scenes]]:
+            self.assertIn("rendering on threads instead", self.check(0, self.PATH, *scenes, *self.SMALL))
