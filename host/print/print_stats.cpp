@@ -102,8 +102,7 @@ std::string flatten_text(const FlattenStats& stats) {
         built += fmt::format("{}{} ({} nodes, {} deep)", built.empty() ? "" : ", ", one.over,
                              one.shape.nodes, one.shape.depth);
     }
-    built = built.empty() ? fmt::format("none (under {} primitives)", triangle_crossover)
-                          : fmt::format("{}, built in {:.3f} s", built, stats.bvh_seconds);
+    built = built.empty() ? "none" : fmt::format("{}, built in {:.3f} s", built, stats.bvh_seconds);
     return fmt::format("BVH: {}\nshadow casters: {} of {} light-triangle pairs\n", built,
                        stats.casters, stats.lit_triangles);
 }

@@ -78,6 +78,9 @@ class TextStats(CliTest):
         self.assertIn("(4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass; hash ",
                       result.stdout)
 
+    def test_no_hierarchy_is_none(self):
+        self.assertIn("BVH: none\n", self.render("glass", "--size", "8", "--hierarchies", "off", "--stats").stdout)
+
     def test_features_all_is_said(self):
         result = self.render("empty", "--size", "4", "--features", "all", "--stats")
         self.assertRegex(result.stdout, "leaves out: nothing\n"
