@@ -226,7 +226,7 @@ std::string object_of(const Scene& scene, const TriangleList& triangles, std::si
     if (number < scene.cones.size()) return fmt::format("cone {}", number + 1);
     const auto [mesh, index] = triangles.place(number - scene.cones.size());
     if (mesh == nullptr) return fmt::format("triangle {}", index + 1);
-    return fmt::format("mesh {}, face {}", mesh - scene.meshes.data() + 1, index + 1);
+    return fmt::format("mesh {}, triangle {}", mesh - scene.meshes.data() + 1, index + 1);
 }
 
 std::vector<std::size_t> shining_lights(const Scene& scene) {

@@ -34,7 +34,7 @@ std::size_t number_in_scene(const FlatScene<T>& flat, std::int64_t prim) {
     return flat.order.empty() ? number : static_cast<std::size_t>(flat.order[number]);
 }
 
-/// What its author calls it: "sphere 2"; "triangle 7"; "mesh 1, face 23": counted from 1.
+/// What its author calls it: "sphere 2"; "triangle 7"; "mesh 1, triangle 23": counted from 1.
 std::string object_of(const Scene& scene, const TriangleList& triangles, std::size_t number);
 
 /// The lights that the flat scene has: those of nonzero intensity.

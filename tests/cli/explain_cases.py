@@ -38,6 +38,11 @@ class Explain(CliTest):
         self.assertIn("    light 1 ", text)
         self.assertNotIn("nan", text)
 
+    def test_counts_the_triangles_that_polygons_are_split_into(self):
+        self.write_text("quads.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n")
+        text = self.explain("quads.obj", "--size", "40", "--pixel", "28,17")
+        self.assertIn("hits mesh 1, triangle 4 (", text)
+
     def test_begins_with_what_the_pixel_shows(self):
         for pixel, words in [(BOX[3], r"\d+ % \w+ mirrored in mirror"), ("1,1", "100 % ")]:
             text = self.explain(scene_path("cornell-box"), "--size", "40", "--pixel", pixel)
