@@ -167,6 +167,7 @@ class Reader {
         Option& option = find(word.substr(0, 2));
         const std::string rest = word.substr(2);
         if (rest.empty()) return read_value(option);
+        if (rest.starts_with('=')) refuse_line("'" + word + "' has an '=' too many");
         if (!option.type.empty()) return take(option, rest);
         take(option, "");
         read_short("-" + rest);

@@ -136,6 +136,8 @@ Json comparison_json(const Comparison& result, const CompareOptions& options) {
 }
 
 int run_compare(const CompareOptions& options) {
+    if (options.heatmap_scale && options.heatmap.empty())
+        usage_error("--heatmap-scale requires --heatmap");
     options.results.check({options.picture, options.reference}, {options.heatmap});
     if (!options.heatmap.empty()) check_picture_path(options.heatmap);
     const Comparison result = compare_pictures(options);

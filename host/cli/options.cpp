@@ -252,8 +252,8 @@ void add_picture_output(Verb& verb, std::string& output, std::optional<PictureFo
     };
     const auto parse_format = [](const std::string& text) {
         const auto known = known_picture_format("picture." + text);
-        if (!known) refuse(text, "expected png, exr, pfm, tif, jpg, webp, hdr, tga, bmp or ppm");
-        return known;
+        if (known && lower(text) != "pgm") return known;
+        refuse(text, "expected png, exr, pfm, tif, jpg, webp, hdr, tga, bmp, ppm or dpx");
     };
     verb.value("-o,--output", "FILE|-", output, parse_output, help);
     verb.value("--format", "png|exr|pfm|..", format, parse_format,

@@ -279,7 +279,10 @@ class Pictures {
         for (const std::string& file : scene_.model_files) inputs_.add(file);
         check_inputs(options);
         apply_overrides(scene_, options);
+        const bool has_own = std::ranges::all_of(scene_.lights, &Scene::Light::has_own_intensity);
         if (!options.quiet) {
+            if (options.light.light_scale && has_own)
+                print_note(printable(options.scene) + ": --light-scale has no effect on it");
             print_notes(scene_.notes);
             print_warnings(options.scene, scene_warnings(scene_));
         }

@@ -221,6 +221,8 @@ void settle_render(RenderOptions& render) {
          // A target starts with a few samples; its journal would be of another picture each time.
          {has_target && (has_shares || render.resume),
           "--target-rmse cannot be combined with --shard or --resume"},
+         {render.resume && (render.output == stdout_path || (render.output.empty() && !is_batch)),
+          "--resume requires -o FILE, next to which it saves finished tiles"},
          {has_target && render.aa->refines(),
           "--target-rmse requires --aa edges:T, sobol:N or grid:N"},
          {render.estimate && has_shares,

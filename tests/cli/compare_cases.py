@@ -146,6 +146,10 @@ class Thresholds(CompareTest):
                      "1 pixel over 1/255, exceeding --max-pixels 0"]:
             self.assertIn(name, result.stderr)
 
+    def test_a_scale_needs_a_heatmap(self):
+        self.assert_refused(self.run_cli("compare", "a.pfm", "b.pfm", "--heatmap-scale", "1"), 2,
+                            "--heatmap-scale requires --heatmap")
+
     def test_garbage(self):
         for option, value in [("--max-rmse", "-1"), ("--max-rmse", "nan"), ("--max-abs", "1x"),
                               ("--max-abs", ""), ("--max-pixels", "-1"),

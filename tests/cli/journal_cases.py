@@ -142,7 +142,7 @@ class Shares(JournalTest):
                           ["--shard", "0/2", "-o", "a.png"], ["--shard", "0/2"],
                           ["--shard", "0/2", "-o", "a.mbj", "--math", "fast"],
                           ["--shard", "0/2", "-o", "a.mbj", "--schedule", "buffers", "--device",
-                           "threads"], ["--fresh", "--resume"],
+                           "threads"], ["--fresh", "--resume", "-o", "a.png"], ["--resume"], ["--resume", "-o", "-"],
                           ["--shard", "0/2", "-o", "a.mbj", scene]]:
             self.assert_refused(self.run_cli("render", scene, *arguments), 2)
         self.assert_refused(self.run_cli("render", scene, "--shard", "0/2", "-o", "no/a.mbj"), 4)

@@ -67,6 +67,7 @@ class PictureToStdout(CliTest):
         scene = scene_path("single-sphere")
         self.assert_refused(self.run_cli("render", scene, "-o", "a.png", "--format", "exr"), 2,
                             "--format", "extension")
+        self.assert_refused(self.run_cli("render", scene, "-o", "-", "--format", "pgm"), 2, "or dpx")
         self.assert_refused(self.run_cli("render", scene, "-o", "-", "--format", "gif"), 2,
                             "'gif'", "png, exr, pfm")
 

@@ -106,6 +106,9 @@ class NeutralFileFormat(CliTest):
         plain = self.hash_of(given, *size)
         self.assertEqual(self.hash_of(given, *size, "--light-scale", "0.3"), plain)
         self.assertEqual(self.hash_of(left_open, *size, "--light-scale", "0.7"), plain)
+        for path, says in [(given, True), (left_open, False)]:
+            said = self.succeed("render", path, *size, "--light-scale", "0.3").stderr
+            self.assertEqual("given.json: --light-scale has no effect" in said, says)
 
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

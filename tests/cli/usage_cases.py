@@ -56,7 +56,7 @@ class WrongOption(CliTest):
         for words, says in [(["--color"], ""), (["--check", "5%", "--math", "fast"], "--math strict"),
                             (["--stats=xml"], "json"), (["--quiet=x"], "takes no value"),
                             (["--size", "8", "--size", "9"], "given twice"),
-                            (["--size"], ""), (["--device"], ""), (["--crop"], ""),
+                            (["--size"], ""), (["--device"], ""), (["--crop"], ""), (["-o=x.png"], "an '=' too many"),
                             *(([option, "rubbish"], "rubbish")
                               for option in ["--precision", "--math", "--launch", "--schedule", "--features",
                                              "--progress", "--encoding"])]:
