@@ -46,17 +46,12 @@ void write_merged(const MergedPicture& merged, const MergeOptions& options) {
     write_picture(options.output, merged.picture, options.encoding, metadata, options.format);
 }
 
-/// A whole picture needs no other part: it is written in another format.
-bool is_whole(const MergeOptions& options) {
-    return options.parts.size() == 1 && options.parts.front().ends_with(".pfm");
-}
-
 int run_merge(const MergeOptions& options) {
     if (!options.output.empty()) {
         check_picture_path(options.output, options.format);
         check_outputs({options.output}, UsedFiles(options.parts));
     }
-    if (is_whole(options)) {
+    if (options.parts.size() == 1 && options.parts.front().ends_with(".pfm")) {  // a whole picture
         const Picture picture = read_picture(options.parts.front());
         if (!options.output.empty()) {
             write_picture(options.output, picture, options.encoding, {}, options.format);

@@ -24,9 +24,6 @@ namespace rt {
 
 namespace {
 
-constexpr int largest_side = 65536;
-constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-
 /// Whether a word names a place for results: not an existing scene or picture.
 bool may_take_results(const std::string& word) {
     if (word == "-") return true;
@@ -39,14 +36,12 @@ bool may_take_results(const std::string& word) {
            start.starts_with("<?xml");
 }
 
-constexpr double brightest = 1e30;
-
 glm::dvec3 parse_ambient(const std::string& text) {
     constexpr const char* expected = "expected R,G,B or one number, from 0 to 1e30, such as 0.2";
     std::vector<double> n;
     for (const std::string& part : split_list(text, expected)) {
         n.push_back(parse_number<double>(part).value_or(-1));
-        if (!(n.back() >= 0 && n.back() <= brightest)) refuse(text, expected);
+        if (!(n.back() >= 0 && n.back() <= max_scene_number)) refuse(text, expected);
     }
     if (n.size() != 1 && n.size() != 3) refuse(text, expected);
     return n.size() == 1 ? glm::dvec3(n[0]) : glm::dvec3(n[0], n[1], n[2]);
@@ -70,11 +65,11 @@ PictureSize parse_size(const std::string& text) {
     }
     const PictureSize size{numbers->front(), numbers->back()};
     if (size.width < 1 || size.height < 1) refuse(text, "each side must be at least 1 pixel");
-    if (size.width > largest_side || size.height > largest_side ||
-        std::int64_t{size.width} * size.height > most_pixels) {
+    if (size.width > max_image_side || size.height > max_image_side ||
+        std::int64_t{size.width} * size.height > max_image_pixels) {
         throw BadValue{text,
                        fmt::format("too large; at most {} pixels per side and {} in total",
-                                   largest_side, most_pixels),
+                                   max_image_side, max_image_pixels),
                        ExitCode::limit};
     }
     return size;
@@ -237,7 +232,7 @@ void add_build_extras(Verb& verb) {
 
 void add_light_options(Verb& verb, LightOverrides& light) {
     verb.value("--light-scale", "X", light.light_scale,
-               number_in(0.0, brightest, "a number from 0 to 1e30, such as 0.5"),
+               number_in(0.0, max_scene_number, "a number from 0 to 1e30, such as 0.5"),
                "intensity of lights that have none (default: NFF sqrt(n)/2n, JSON 1, models "
                "0.75 and 0.25)");
     verb.value("--ambient", "R,G,B|X", light.ambient_light, parse_ambient,

@@ -132,7 +132,6 @@ void add_choice(Verb& verb, const std::string& option, T& target, const Named<N>
                one_of(choices), help);
 }
 
-inline constexpr int most_bounces = 100000;
 inline constexpr int most_threads = 4096;
 
 /// Comma-separated AA modes, without duplicates.

@@ -10,6 +10,7 @@
 
 #include "host/base/memory.h"
 #include "host/record/record.h"
+#include "host/scene/scene.h"
 
 static_assert(std::endian::native == std::endian::little, "journals are little-endian");
 
@@ -24,7 +25,6 @@ struct RecordHead {
 };
 static_assert(sizeof(RecordHead) == 12 && sizeof(Rect) == 16, "they are stored as they are");
 
-constexpr int largest_side = 65536;
 constexpr std::size_t most_text_bytes = 1 << 16;  // of a header or writer
 
 void append(std::vector<std::byte>& bytes, std::span<const std::byte> more) {
@@ -52,7 +52,7 @@ JournalHeader parse_header(std::span<const std::byte> body) {
         const PictureSpec& picture = header.picture;
         const int side = std::max(picture.width, picture.height);
         const Rect whole{0, 0, picture.width, picture.height};
-        if (side > largest_side || !is_within(picture.region, whole)) {
+        if (side > max_image_side || !is_within(picture.region, whole)) {
             what = "region";
         } else if (picture.max_bounces < 0) {
             what = "max_bounces";

@@ -253,8 +253,7 @@ void read_settings(ObjectReader& reader, Scene& scene) {
     const bool has_camera = reader.object("camera", "the camera", scene.camera, read_camera);
     if (reader.find("path") && has_camera) reader.object("path", "the path", scene, read_path);
     reader.object("image", "the image", scene, read_image);
-    constexpr int max_max_bounces = 100000;
-    reader.optional("max_bounces", scene.max_bounces, integer_from(0, max_max_bounces));
+    reader.optional("max_bounces", scene.max_bounces, integer_from(0, most_bounces));
     reader.optional("background", scene.background, read_color);
     reader.optional("ambient_light", scene.ambient_light, read_color);
 }

@@ -21,9 +21,10 @@ inline constexpr double max_scene_number = 1e30;
 /// The largest reflectance or transmission: light of 1e30 is still a float after one surface.
 inline constexpr double max_reflectance = 1e6;
 
-// The largest picture a scene file may ask for, in pixels.
+// The largest picture a scene or user may ask for, in pixels, and the most bounces.
 inline constexpr int max_image_side = 65536;
 inline constexpr int max_image_pixels = 1 << 28;
+inline constexpr int most_bounces = 100000;
 
 /// A scene file's contents, in double precision and in the author's own units. Right-handed; y is
 /// up by default; light is linear RGB. A reader (scene_file) validates all it fills in: numbers are
