@@ -3,8 +3,8 @@
 // Visits the leaves of a bounding volume hierarchy that a packet of rays meets, nearer ones first.
 //
 // Never misses a hit: the host enlarges boxes by 16 half-ulps of their largest coordinate
-// (host/flatten/boxes.cpp), and here they grow by 16 half-ulps of the origin's. That exceeds the
-// combined rounding errors of the vertices in the rays' frames and of the slab test (after Ize,
+// (host/flatten/flat_shapes.h), and here they grow by 16 half-ulps of the origin's. That exceeds
+// the combined rounding errors of the vertices in the rays' frames and of the slab test (after Ize,
 // Robust BVH Ray Traversal, JCGT 2(2), 2013, whose bound is relative to the distance; with a bound
 // relative to the coordinates a plane's distance may be one fma).
 #ifndef RT_BVH_CL

@@ -48,10 +48,7 @@
 
 #include "kernels/shared.h"
 
-#ifndef RT_REALS  // scripts/embree/kernel_flops.cpp counts the operations on them
-#define RT_REALS RT_LANES_OF(RT_REAL)
-#endif
-typedef RT_REALS Reals;
+typedef RT_LANES_OF(RT_REAL) Reals;
 typedef RT_LANES_OF(RT_INDEX) Indices;
 typedef RT_LANES_OF(uint) Uints;
 

@@ -7,7 +7,7 @@
 #include "kernels/math.cl"
 #include "kernels/native/path_event.h"
 
-void rt_note_path_event(const PathEvent* event);  // host/render/explain.cpp
+void rt_note_path_event(const PathEvent* event);  // host/explain/ray_tree.cpp
 
 void set_triple(double* to, real3 v) {
     to[0] = v.x;

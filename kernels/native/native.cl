@@ -9,23 +9,22 @@
 
 #define RT_NATIVE(function) RT_JOIN(RT_NATIVE_NAME, function)
 
+// An entry point's body: calls a function for each `item`, with a copy of the `scene`.
+#define RT_FOR_ITEMS(call)   \
+    SceneView scene = *view; \
+    for (Index item = first; item < end; ++item) add_counts(counts, 0, call)
+
 // What this variant is (NativeVariant, host/render/native_kernels.h).
 __constant int RT_NATIVE(_traits)[] = {RT_FEATURE_BITS, RT_LANES, RT_SAMPLES};
 
 void RT_NATIVE(_pixels)(__global Real* film, __global RayCounts* counts, const SceneView* view,
                         const Tile* tile, Index first, Index end) {
-    SceneView scene = *view;
-    for (Index item = first; item < end; ++item) {
-        add_counts(counts, 0, pixels_item(film, &scene, tile, item));
-    }
+    RT_FOR_ITEMS(pixels_item(film, &scene, tile, item));
 }
 
 void RT_NATIVE(_samples)(__global Real* samples, __global RayCounts* counts, const SceneView* view,
                          const Tile* tile, Index first, Index end) {
-    SceneView scene = *view;
-    for (Index item = first; item < end; ++item) {
-        add_counts(counts, 0, samples_item(samples, &scene, tile, item, 1));
-    }
+    RT_FOR_ITEMS(samples_item(samples, &scene, tile, item, 1));
 }
 
 void RT_NATIVE(_resolve)(__global Real* film, __global const Real* samples,
@@ -58,19 +57,13 @@ static RayCounts list_item(__global Real* colors, __global const int* pixels,
 
 void RT_NATIVE(_list)(__global Real* colors, __global RayCounts* counts, const SceneView* view,
                       const Tile* tile, __global const int* pixels, Index first, Index end) {
-    SceneView scene = *view;
-    for (Index item = first; item < end; ++item) {
-        add_counts(counts, 0, list_item(colors, pixels, &scene, tile, item));
-    }
+    RT_FOR_ITEMS(list_item(colors, pixels, &scene, tile, item));
 }
 
 #if RT_RENDERS_ADAPTIVE || RT_RENDERS_EDGES
 void RT_NATIVE(_centers)(__global Real* planes, __global RayCounts* counts, const SceneView* view,
                          const Tile* tile, Index first, Index end) {
-    SceneView scene = *view;
-    for (Index item = first; item < end; ++item) {
-        add_counts(counts, 0, centers_item(planes, &scene, tile, item));
-    }
+    RT_FOR_ITEMS(centers_item(planes, &scene, tile, item));
 }
 #endif
 
@@ -78,10 +71,7 @@ void RT_NATIVE(_centers)(__global Real* planes, __global RayCounts* counts, cons
 void RT_NATIVE(_adaptive)(__global Real* film, __global RayCounts* counts, const SceneView* view,
                           const Tile* tile, __global Real* planes, Index round, Index first,
                           Index end) {
-    SceneView scene = *view;
-    for (Index item = first; item < end; ++item) {
-        add_counts(counts, 0, adaptive_item(film, planes, &scene, tile, round, item));
-    }
+    RT_FOR_ITEMS(adaptive_item(film, planes, &scene, tile, round, item));
 }
 #endif
 
@@ -89,10 +79,7 @@ void RT_NATIVE(_adaptive)(__global Real* film, __global RayCounts* counts, const
 void RT_NATIVE(_edges)(__global Real* film, __global RayCounts* counts, const SceneView* view,
                        const Tile* tile, __global Real* planes, Index round, Index first,
                        Index end) {
-    SceneView scene = *view;
-    for (Index item = first; item < end; ++item) {
-        add_counts(counts, 0, edges_item(film, planes, &scene, tile, round, item));
-    }
+    RT_FOR_ITEMS(edges_item(film, planes, &scene, tile, round, item));
 }
 #endif
 

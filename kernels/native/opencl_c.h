@@ -19,7 +19,6 @@ typedef unsigned long size_t;
 RT_VECTORS(int)
 RT_VECTORS(uint)
 RT_VECTORS(long)
-RT_VECTORS(ulong)
 RT_VECTORS(float)
 RT_VECTORS(double)
 
