@@ -268,7 +268,8 @@ std::optional<AaMode> ErrorEstimator<T>::mode_to_reach(double rmse, AaMode aa,
                                                        ControlPixels& controls) const {
     while (stop == 0) {
         // What an edges mode misses it misses at any tolerance.
-        const bool gives_up = aa.finds_edges() && aa.threshold < rmse / 8;
+        const bool gives_up =
+            aa.finds_edges() && aa.threshold <= std::max(rmse / 8, AaMode::min_tolerance);
         const AaMode next = gives_up ? sobol_aa(control_samples) : finer(aa);
         if (next == aa) return aa;
         aa = next;

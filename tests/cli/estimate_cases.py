@@ -83,6 +83,11 @@ class Target(CliTest):
         self.assertLess(float(stats["settings"]["aa"].removeprefix("edges:")), 0.01)
         self.assertLess(stats["estimate"]["rmse"], 1e-3)
 
+    def test_makes_edges_of_the_least_tolerance_give_way_to_sobol(self):
+        result = self.run_cli("render", scene_path("gallery/newtons-cradle"), "--size", "6", "--aa", "edges:5e-5",
+                              "--target-rmse", "5e-5", "-o", "out.png")
+        self.assertIn(" sobol:", result.stdout + result.stderr)
+
     def test_of_a_batch(self):
         result = self.succeed("render", scene_path("cornell-box"), scene_path("many-lights"),
                               "--size", "40", "--target-rmse", "1e-2", "--stats=json")
@@ -95,7 +100,8 @@ class Target(CliTest):
         self.assertEqual(result.returncode, 8)
         self.assertRegex(result.stderr, "with grid:64, not the target of 1e-05: no mode has more")
         self.assertEqual(self.files(), ["out.png"])
-        result = self.run_cli("render", scene_path("glass"), "--size", "32", "--target-rmse", "1e-5")
+        result = self.run_cli("render", scene_path("glass"), "--size", "16", "--aa", "sobol:4096",
+                              "--target-rmse", "1e-5")
         self.assertEqual(result.returncode, 8)
         self.assertNotIn("rendering again", result.stderr)
 
