@@ -190,6 +190,19 @@ TEST(ErrorEstimate, UsesNoMoreThreadsThanTheRenderer) {
     EXPECT_LE(most, expected);
 }
 
+TEST(ControlPixels, OfOnePixelTellNoiseFromNoError) {
+    const std::vector<double> dark(3, 0.0), light(3, 0.5);
+    const ControlPixels controls{{3}, {1}, {1}, 1, {dark, light}, 4, 8};
+    const ErrorEstimate between = controls.estimate(std::vector<double>(3, 0.4));
+    EXPECT_EQ(between.rmse, 0);
+    EXPECT_DOUBLE_EQ(between.high, 0.5);
+    EXPECT_EQ(controls.estimate(dark).high, 0.5);
+    const ErrorEstimate beyond = controls.estimate(std::vector<double>(3, 1.0));
+    EXPECT_DOUBLE_EQ(beyond.rmse, std::sqrt(0.5));
+    EXPECT_DOUBLE_EQ(beyond.low, 0.5);
+    EXPECT_DOUBLE_EQ(beyond.high, std::sqrt(0.75));
+}
+
 TEST(ControlPixels, WeighWhatTheyStandFor) {
     const ControlPixels controls{{3, 8},
                                  {0.1, 0.4},

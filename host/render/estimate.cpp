@@ -151,7 +151,11 @@ ErrorEstimate ControlPixels::estimate(std::span<const double> colors) const {
     const double variance =
         std::max(squares - sum * sum / static_cast<double>(pixels.size()), 0.0) +
         std::max(candidate_squares - sum * sum / static_cast<double>(candidates), 0.0);
-    const double margin = 1.645 * std::sqrt(variance);  // 90 % of a normal distribution
+    // 90 % of a normal distribution; a square below 0 is all noise.
+    double margin = std::max(1.645 * std::sqrt(variance), -sum);
+    if (pixels.size() == 1) {  // only its two means tell of noise
+        margin = std::max(margin, product(means[0].data(), means[1].data(), means[1].data()));
+    }
     ErrorEstimate estimate;
     estimate.rmse = std::sqrt(std::max(sum, 0.0));
     estimate.low = std::sqrt(std::max(sum - margin, 0.0));
