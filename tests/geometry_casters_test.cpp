@@ -121,6 +121,13 @@ TEST(ShadowCasters, LeaveOutAFloorUnlessInDoubt) {
     EXPECT_EQ(casters(scene), Lists{{}});
     scene.spheres[0].radius = 0.6;
     EXPECT_EQ(casters(scene), (Lists{{0, 1}}));
+    scene.spheres[0] = {{0, 0, 1e-5}, 1e-5, 0};  // smaller than a shadow ray's offset
+    EXPECT_EQ(casters(scene), (Lists{{0, 1}}));
+    scene = floor_scene({});
+    scene.cones.push_back({{0, 0, 1e-7}, {0, 0, 1}, 0.5, 1.5, 0});
+    EXPECT_EQ(casters(scene), (Lists{{0, 1}}));
+    scene.cones[0].base.z = 0.1;
+    EXPECT_EQ(casters(scene), Lists{{}});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "host/scene/geometry.h"
 
@@ -30,13 +31,17 @@ struct Plane {
 struct Heights {
     double lowest = 0, highest = 0;  ///< with heights within rounding error taken as 0
     double extent = 0;               ///< largest coordinate distance from the plane's point
+    /// Least of a point on a sphere or cone from where a shadow ray's first step may be downwards.
+    double nearest_round = std::numeric_limits<double>::infinity();
 
-    void add(const Plane& plane, const glm::dvec3& center, double reach) {
+    /// Returns how far off the plane it all is.
+    double add(const Plane& plane, const glm::dvec3& center, double reach) {
         const double height = plane.height(center);
         const double doubt = plane.doubt(center) + rounding * reach;
         if (height - reach < -doubt) lowest = std::min(lowest, height - reach);
         if (height + reach > doubt) highest = std::max(highest, height + reach);
         extent = std::max(extent, largest(center - plane.point) + reach);
+        return std::fabs(height) - reach;
     }
 };
 
@@ -52,11 +57,21 @@ Heights heights_over(const Plane& plane, const Scene& scene, const TriangleList&
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         for (const glm::dvec3& corner : triangles.corners(i)) heights.add(plane, corner, 0);
     }
-    for (const auto& sphere : scene.spheres) heights.add(plane, sphere.center, sphere.radius);
+    for (const auto& sphere : scene.spheres) {
+        heights.add(plane, sphere.center, sphere.radius);
+        // The least sine of the light's elevation, from a point of the sphere near the plane.
+        const double sine =
+            0.9 * plane.height(light) / (glm::length(light - sphere.center) + sphere.radius);
+        const double below = sphere.radius * std::sqrt(std::max(0.0, 1 - sine * sine));
+        heights.nearest_round =
+            std::min(heights.nearest_round, std::fabs(plane.height(sphere.center)) - below);
+    }
     for (const auto& cone : scene.cones) {
         const glm::dvec3 axis = glm::normalize(cone.apex - cone.base);
-        heights.add(plane, cone.base, disc_reach(plane, axis, cone.base_radius));
-        heights.add(plane, cone.apex, disc_reach(plane, axis, cone.apex_radius));
+        heights.nearest_round =
+            std::min({heights.nearest_round,
+                      heights.add(plane, cone.base, disc_reach(plane, axis, cone.base_radius)),
+                      heights.add(plane, cone.apex, disc_reach(plane, axis, cone.apex_radius))});
     }
     for (const glm::dvec3& eye : eyes) heights.add(plane, eye, 0);
     heights.add(plane, light, 0);
@@ -65,8 +80,8 @@ Heights heights_over(const Plane& plane, const Scene& scene, const TriangleList&
 
 /// Whether a shadow ray that starts on the other triangle, where that meets the plane, may begin
 /// beyond the plane: start points are offset along the surface normal, to the light's side.
-bool steps_through(const Plane& plane, double side, const TriangleList::Corners& other,
-                   const glm::dvec3& light, double extent) {
+bool steps_through(const Plane& plane, const TriangleList::Corners& other, const glm::dvec3& light,
+                   double extent) {
     double nearest = extent, farthest = 0;
     for (const glm::dvec3& corner : other) {
         const double height = std::fabs(plane.height(corner));
@@ -75,8 +90,8 @@ bool steps_through(const Plane& plane, double side, const TriangleList::Corners&
     }
     if (nearest > near_surface * extent || farthest <= 0) return false;
     const Plane surface(other);
-    const double lit = surface.height(light) < 0 ? -1 : 1;
-    return side * lit * glm::dot(plane.normal, surface.normal) < -near_surface;
+    const double lit = (surface.height(light) < 0) == (plane.height(light) < 0) ? 1 : -1;
+    return lit * glm::dot(plane.normal, surface.normal) < -near_surface;
 }
 
 bool casts(const Scene& scene, const TriangleList& triangles, std::span<const glm::dvec3> eyes,
@@ -84,12 +99,11 @@ bool casts(const Scene& scene, const TriangleList& triangles, std::span<const gl
     const Plane plane(triangles.corners(index));
     const Heights heights = heights_over(plane, scene, triangles, eyes, light);
     if (heights.lowest < 0 && heights.highest > 0) return true;
-    const double height = plane.height(light);
-    if (!(std::fabs(height) > near_light * heights.extent)) return true;
+    if (!(std::fabs(plane.height(light)) > near_light * heights.extent)) return true;
+    if (!(heights.nearest_round > near_surface * heights.extent)) return true;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         if (i == index) continue;
-        const double side = height < 0 ? -1 : 1;
-        if (steps_through(plane, side, triangles.corners(i), light, heights.extent)) return true;
+        if (steps_through(plane, triangles.corners(i), light, heights.extent)) return true;
     }
     return false;
 }

@@ -14,8 +14,8 @@ namespace rt {
 /// The triangles that may cast a shadow from a point light, ascending. Omits a triangle if its
 /// plane has all geometry, the origins of eye rays (`eyes`), and the light on one closed side: the
 /// walls of a room lit from within. When in doubt, keeps it: if the light is near the plane, or if
-/// another triangle meets the plane so that the offset of a shadow ray's origin from it crosses the
-/// plane. Takes quadratic time in the number of triangles.
+/// another surface meets the plane so that the offset of a shadow ray's origin from it may cross
+/// the plane. Takes quadratic time in the number of triangles.
 std::vector<std::size_t> shadow_casters(const Scene& scene, const TriangleList& triangles,
                                         std::span<const glm::dvec3> eyes, const glm::dvec3& light);
 
