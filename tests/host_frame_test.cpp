@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/flatten/flat_scene.h"
+#include "tests/refusals.h"
 
 namespace rt {
 namespace {
@@ -34,6 +35,23 @@ TEST(FlattenFrame, HasTheAuthorsWindowWhateverItsShape) {
     const auto params = flatten<double>(scene).params;
     EXPECT_EQ(params.direction_dx.x, 0.25);
     EXPECT_EQ(params.direction_dy.y, 0.125);
+}
+
+TEST(FlattenFrame, RefusesRadiiWhoseSquaresOverflow) {
+    Scene scene;
+    scene.camera.from = {0, 0, 5};
+    scene.materials.resize(1);
+    for (const double x : {-1.5, 0.0, 1.5}) scene.spheres.push_back({{x, 0, 0}, 0.5, 0});
+    Scene with_cone = scene;
+    scene.spheres.push_back({{1, 2, 0}, 1e25, 0});
+    for (const auto& [base, apex] : {std::pair(1e25, 1.0), {1.0, 1e25}}) {
+        with_cone.cones = {{{0, -1, 0}, {0, 1, 0}, base, apex, 0}};
+        EXPECT_EQ(refusal_of([&] { flatten<float>(with_cone); }).exit_code, ExitCode::input);
+        flatten<double>(with_cone);
+    }
+    EXPECT_NE(refusal_of([&] { flatten<float>(scene); }).message.find("precision double"),
+              std::string::npos);
+    flatten<double>(scene);
 }
 
 }  // namespace

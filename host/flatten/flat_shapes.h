@@ -138,6 +138,7 @@ template <typename T>
 typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphere& sphere) {
     typename Flat<T>::Sphere flat{};
     flat.center = pack_position<T>(view, sphere.center);
+    pack_position<T>(view, sphere.center + sphere.radius);
     const double radius = sphere.radius * view.scale;
     const glm::dvec3 center = view.to_view(sphere.center);
     const double distance = glm::length(center);
@@ -163,7 +164,8 @@ typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& gi
     const glm::dvec3 along = (cone.apex - cone.base) * view.scale;
     const double length = glm::length(along);
     const double slope = (cone.apex_radius - cone.base_radius) * view.scale / length;
-    pack_position<T>(view, cone.apex);
+    for (const auto& end : {cone.apex, cone.base + cone.base_radius, cone.apex + cone.apex_radius})
+        pack_position<T>(view, end);
     typename Flat<T>::Cone flat{};
     flat.base = pack_position<T>(view, cone.base);
     flat.base_radius = static_cast<T>(cone.base_radius * view.scale);
