@@ -238,7 +238,52 @@ TEST(StressRun, CasesThatShouldHaveTheSameBitsAndDoNotFail) {
     }
 }
 
+/// The verdicts of a trial on threads, in float and in double.
+std::vector<std::string> verdicts_of(const RayTrial& trial, StressTolerance tolerance) {
+    StressOptions options;
+    options.devices = {"threads"};
+    options.quiet = true;
+    RenderCache cache;
+    const StressFamily family{"rays", "", "", {{"1", 0, tolerance, trial, false}}};
+    std::vector<std::string> verdicts;
+    for (const auto& row : run_stress_cases({family}, options, cache).families[0].cases[0].rows) {
+        verdicts.emplace_back(row.verdict());
+    }
+    return verdicts;
+}
+
+TEST(StressRun, DoubleMustBeBetterThanFloatAtRays) {
+    RayTrial trial{[](auto rays, auto&, auto) { return RayFigures{rays, 0, 1e-6}; }, 100};
+    EXPECT_EQ(verdicts_of(trial, {}), (std::vector<std::string>{"pass", "fail"}));
+    trial.run = [](auto rays, auto&, auto) { return RayFigures{rays, 5, 1e-12}; };
+    EXPECT_EQ(verdicts_of(trial, {.most_wrong = 50}), (std::vector<std::string>{"pass", "fail"}));
+    EXPECT_EQ(verdicts_of(trial, {.most_wrong = 1000}), (std::vector<std::string>{"pass", "pass"}));
+}
+
+TEST(StressRun, ADeviceThatFailsIsJudgedInFloatToo) {
+    const RayTrial trial{
+        [](auto, auto&, auto) -> RayFigures { throw Error(ExitCode::device, "x"); }};
+    EXPECT_EQ(verdicts_of(trial, {.in_float = false}), (std::vector<std::string>{"fail", "fail"}));
+}
+
 // Rays
+
+TEST(RayTrials, ABallThatMostRaysMissIsCounted) {
+    Scene scene = bare_scene();
+    add_sphere(scene, {0, 0, -3}, 1, add_matt(scene, glm::dvec3(1)));
+    set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
+    RayCaster caster = threads_ray_caster();
+    EXPECT_EQ(leaving_sphere(scene, 1e-2).run(10000, caster, Precision::float32).failures, 0U);
+    caster.in_float = [right = caster.in_float](const FlatScene<float>& flat) {
+        return [trace = right(flat)](auto queries, auto answers) {
+            trace(queries, answers);
+            for (std::size_t i = 0; i < answers.size(); ++i) {
+                if (i % 1000 != 0) answers[i].prim = Flat<float>::none;
+            }
+        };
+    };
+    EXPECT_GT(leaving_sphere(scene, 1e-2).run(10000, caster, Precision::float32).failures, 3000U);
+}
 
 TEST(RayTrials, AHoleInAMeshIsCounted) {
     Scene scene = bare_scene();

@@ -167,6 +167,8 @@ struct FirstSphere {
     typename Flat<T>::Sphere flat;
     typename Flat<T>::Index prim = 0;
     stress::WideSphere<Quad> exact{in_quad(flat.center), Quad(flat.radius), 0};
+    /// What it meets, a ray cannot miss the sphere by rounding.
+    stress::WideSphere<Quad> core{exact.center, Quad(0.9) * exact.radius, 0};
 
     explicit FirstSphere(const FlatScene<T>& scene) : flat(scene.spheres[0]) {}
 
@@ -256,7 +258,13 @@ struct Leaving {
     }
 
     void judge(const Query<T>& query, const Answer<T>& answer, RayFigures& figures) const {
-        if (!has_left<T>(query)) return;
+        if (!has_left<T>(query)) {
+            if constexpr (requires { shape.core; }) {
+                const stress::WideRay<Quad> ray{in_quad(query.origin), in_quad(query.dir)};
+                note_hit(figures, false, 0, hit_shape(ray, shape.core, false).t);
+            }
+            return;
+        }
         const bool is_outwards = glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
         const std::optional<Quad> exact =
             is_outwards ? Quad(-1) : shape.way_back(answer, query.next);
