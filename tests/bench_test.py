@@ -77,6 +77,11 @@ class Bench(FiguresTest):
             self.assertEqual(row["verdict"], "right", row["why"])
             self.assertEqual((len(row["warm_up"]), len(row["repeats"])), (1, 5))
 
+    def test_has_no_buffers_where_pixels_take_different_samples(self):
+        rows = json.loads(run("bench", SCENE, "--sizes", "8", "--aa", "adaptive:0.1", "--devices", "threads:1",
+                              "--repeats", "3", "--precision", "float", "-q", "--json").stdout)["rows"]
+        self.assertEqual([row["schedule"] for row in rows], ["tiles", "scalar"])
+
     def test_tells_the_sampling_error_of_each_picture(self):
         errors = [run["estimate"]["rmse"] for run in self.result["references"]]
         self.assertEqual(len(set(errors)), 4)

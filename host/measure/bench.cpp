@@ -178,6 +178,7 @@ class Plan {
         const int first = device.threads > 0 ? device.threads : 1;
         const int last = device.threads > 0 ? device.threads : most_threads();
         for (const auto& [schedule, is_scalar] : options_.ways) {
+            if (schedule == Schedule::buffers && !picture.aa->fixed_samples()) continue;
             picture.schedule = schedule;
             picture.kernels.lanes = is_scalar ? 1 : 0;
             for (int threads = first; threads <= last; ++threads) {

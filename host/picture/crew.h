@@ -101,7 +101,7 @@ std::string inexact_names(const std::vector<DeviceChoice>& devices);
 
 /// Warns of settings that do not apply to the device and would be dropped silently.
 void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
-                              const RenderEvents& events);
+                              const AaMode& aa, const RenderEvents& events);
 
 /// Makes the renderers of a scene, and describes them for figures.
 template <typename T>

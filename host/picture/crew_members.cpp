@@ -27,11 +27,13 @@ std::string inexact_names(const std::vector<DeviceChoice>& devices) {
 }
 
 void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
-                              const RenderEvents& events) {
+                              const AaMode& aa, const RenderEvents& events) {
     const auto warn = [&](bool is_given, const std::string& option, const std::string& device) {
         if (is_given && events.message) events.message(option + " has no effect on " + device);
     };
     if (choice.use_threads) {
+        warn(settings.schedule != Schedule::tiles && !aa.fixed_samples(), "--schedule",
+             to_string(aa));
         warn(settings.kernels.launch != Launch::automatic, "--launch", "threads");
         warn(settings.math == Math::fast, "--math fast", "threads");
         warn(!build_extras().options.empty(), "--cl-options", "threads");
@@ -57,12 +59,13 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
 template <typename T>
 std::vector<CrewMember<T>> CrewMaker<T>::members(const std::vector<DeviceChoice>& devices) const {
     const bool is_alone = devices.size() == 1;
+    const bool is_whole = is_alone && aa.fixed_samples();
     std::vector<CrewMember<T>> members;
     for (const DeviceChoice& choice : devices) {
         if (choice.use_threads) {
             members.push_back(
                 threads_member({choice.threads > 0 ? choice.threads : settings.threads,
-                                is_alone ? settings.schedule : Schedule::tiles, settings.kernels}));
+                                is_whole ? settings.schedule : Schedule::tiles, settings.kernels}));
         } else {
             members.push_back(device_member(choice.device, is_alone));
             members.back().failure = choice.failure;

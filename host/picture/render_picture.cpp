@@ -110,7 +110,7 @@ class Job {
    private:
     void warn_of(const Devices& devices) const {
         for (const DeviceChoice& choice : devices) {
-            warn_of_ignored_settings(choice, settings_, events_);
+            warn_of_ignored_settings(choice, settings_, picture_.aa, events_);
             if (!choice.note.empty()) warn_(choice.note);
         }
         if (!is_exact_ && devices.size() > 1) {

@@ -141,6 +141,14 @@ class Choice(CliTest):
         for option in ["--launch", "--math fast", "--cl-options", "--save-kernels"]:
             self.assertIn(f"{option} has no effect on threads", result.stderr)
 
+    def test_buffers_have_no_effect_where_pixels_take_different_samples(self):
+        stats = self.stats_of("cornell-box", "--size", "4", "--aa", "edges:0.1", "--device", "threads:2",
+                              "--schedule", "buffers")
+        self.assertEqual((stats["device"]["schedule"], stats["device"]["threads"]), ("tiles", 2))
+        result = self.render("cornell-box", "--size", "4", "--aa", "edges:0.1", "--device", "threads",
+                             "--schedule", "buffers")
+        self.assertIn("--schedule has no effect on edges:0.1", result.stderr)
+
     def test_packets_wider_than_a_vector_compile_without_a_warning(self):
         result = self.render("single-sphere", "--size", "4", "--device", "pocl", "--precision", "double", "--lanes",
                              "16", "--no-fallback", env={"POCL_CACHE_DIR": str(self.folder / "cold")})
