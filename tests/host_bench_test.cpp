@@ -52,6 +52,8 @@ TEST(Pareto, DigitsThatNobodySeesDecideNothing) {
     EXPECT_EQ(pareto_front(costs), (std::vector<std::size_t>{0, 2}));
     const std::vector<Cost> as_fast{{1.0004, 0.5}, {1.0001, 0.6}, {1.01, 0.4996}};
     EXPECT_EQ(pareto_front(as_fast), (std::vector<std::size_t>{0}));
+    const std::vector<Cost> equal{{1.0001, 0.50004}, {1.0004, 0.50001}};
+    EXPECT_EQ(pareto_front(equal), (std::vector<std::size_t>{0}));
 }
 
 TEST(Pareto, NaNIsOnNoFront) {

@@ -149,7 +149,7 @@ std::vector<std::size_t> pareto_front(std::span<const Cost> costs) {
     std::vector<std::size_t> order(costs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-        return std::pair(shown(costs[i].seconds), costs[i].rmse);
+        return std::pair(shown(costs[i].seconds), shown(costs[i].rmse));
     });
     std::vector<std::size_t> front;
     double best = std::numeric_limits<double>::infinity();
