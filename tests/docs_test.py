@@ -38,7 +38,7 @@ def steps_of(page):
         elif not language:
             for line in content.splitlines():
                 words = shlex.split(line, comments=True)
-                if words and words[0] in NAMES:
+                if words and words[0] in NAMES and words[1] != "report":  # which report_test.py runs
                     yield "command", words[1:], line
 
 
@@ -156,7 +156,7 @@ class Pages(unittest.TestCase):
         return commands
 
     def test_readme(self):
-        self.assertGreaterEqual(self.run_page("README.md", {}), 5)
+        self.assertGreaterEqual(self.run_page("README.md", {}), 4)
 
     def test_tutorial(self):
         home = {"XDG_CACHE_HOME": str(self.folder / "cache")}

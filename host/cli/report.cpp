@@ -30,37 +30,15 @@ struct ReportOptions {
 };
 
 constexpr const char* page_start = "<!DOCTYPE html>";
-constexpr const char* debian_python = "/usr/bin/python3";
-
-/// The python3 in PATH; empty if there is none.
-std::string python_in_path() {
-    std::string path = environment("PATH");
-    while (!path.empty()) {
-        const std::string folder = path.substr(0, path.find(':'));
-        path.erase(0, folder.size() + 1);
-        const std::string python = folder + "/python3";
-        if (!folder.empty() && ::access(python.c_str(), X_OK) == 0) return python;
-    }
-    return "";
-}
-
-bool has_matplotlib(const std::string& python) {
-    const std::string test = fmt::format("'{}' -c 'import matplotlib' 2>/dev/null", python);
-    return !python.empty() && std::system(test.c_str()) == 0;
-}
-
 /// The first that can draw: a person's python3 is often not the system's.
 std::string choose_python() {
-    const std::string own = python_in_path();
-    for (const std::string& python : {own, std::string(debian_python)}) {
-        if (has_matplotlib(python)) return python;
+    for (const std::string python : {"python3", "/usr/bin/python3"}) {
+        const std::string test = python + " -c 'import matplotlib' 2>/dev/null";
+        if (std::system(test.c_str()) == 0) return python;
     }
-    const std::string others =
-        own.empty() || own == debian_python ? "" : " and " + std::string(debian_python);
     throw Error(ExitCode::device,
-                fmt::format("report: {}{} cannot import matplotlib; run 'apt install "
-                            "python3-matplotlib' or 'python3 -m pip install matplotlib'",
-                            own.empty() ? debian_python : own, others));
+                "report: neither python3 in PATH nor /usr/bin/python3 can import matplotlib; run "
+                "'apt install python3-matplotlib' or 'python3 -m pip install matplotlib'");
 }
 
 /// The folder of the Python package: installed, else that of the sources around the build folder.
@@ -92,7 +70,7 @@ int run_report(const ReportOptions& options, std::span<const std::string> argume
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
-    ::execv(pointers[0], pointers.data());
+    ::execvp(pointers[0], pointers.data());
     throw Error(ExitCode::device, "report: cannot run " + python);
 }
 
