@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+set(ENV{GIT_CEILING_DIRECTORIES} ${SOURCE_DIR}/..)  # no other repository around a tarball
 execute_process(
     COMMAND git -C ${SOURCE_DIR} describe --always --abbrev=12
     OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

@@ -7,10 +7,10 @@
 //   CL_SHIM_LOG                a file for the options of each build, one line each
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
-//   CL_SHIM_GPU                if not empty, devices are GPUs, whose work groups have at most 32
-//   items CL_SHIM_NO_CHILD           if not empty, no child process can be started CL_SHIM_DIE_IN
-//   the function whose call fails CL_SHIM_DIE_BY             how: abort, segfault, exit, hang,
-//   spin, error, or delay (2 s); for
+//   CL_SHIM_GPU                if not empty, devices are GPUs, with groups of 32 items at most
+//   CL_SHIM_NO_CHILD           if not empty, no child process can be started
+//   CL_SHIM_DIE_IN             the function whose call fails
+//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error, or delay (2 s); for
 //                              clGetEventInfo, by error means that an event stays submitted
 //   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails

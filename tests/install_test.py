@@ -80,11 +80,11 @@ class Installed(unittest.TestCase):
         depends += "libimath-3-1-29"  # comes with OpenEXR
         files = [prefix / "bin/mirrorball", *(prefix / "lib/mirrorball").iterdir()]
         self.assertGreaterEqual(len(files), 3)  # 4 where SDL is installed
-        for file in files:
-            for library in re.findall(r"NEEDED\s+(\S+)", run("objdump", "-p", file)):
-                owners = re.findall(r"^([^:,\s]+):", run("dpkg", "-S", f"*/{library}"), re.M)
-                self.assertTrue(any(owner in depends for owner in owners),
-                                f"{file.name} needs {library}, which is in {owners}")
+        needed = {library: file.name for file in files
+                  for library in re.findall(r"NEEDED\s+(\S+)", run("objdump", "-p", file))}
+        for library, name in needed.items():
+            owners = re.findall(r"^([^:,\s]+):", run("dpkg", "-S", f"*/{library}"), re.M)
+            self.assertTrue(any(owner in depends for owner in owners), f"{name} needs {library}, which is in {owners}")
 
 
 if __name__ == "__main__":

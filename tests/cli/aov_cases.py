@@ -109,7 +109,7 @@ class Aov(CliTest):
     def test_stopped_after_the_picture(self):
         process = self.start("render", scene_path("glass"), "--size", "80", "--aa", "grid:16",
                              "--device", "threads", "-o", "a.png", "--aov", "rays")
-        while "a.png" not in self.files():
+        while "a.png" not in self.files() and process.poll() is None:
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         stderr = process.communicate()[1]

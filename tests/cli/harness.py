@@ -62,7 +62,7 @@ def clean_environment(changes):
     variables.setdefault("POCL_CACHE_DIR", KERNEL_CACHE)
     for name in ["MIRRORBALL_DEVICE", "POCL_DEVICES", "POCL_AFFINITY", "POCL_MAX_PTHREAD_COUNT",
                  "POCL_PTHREAD_MIN_THREADS", "OCL_ICD_VENDORS", "TERM", "TMUX",
-                 "STY", "CL_PLATFORM_INDEX", "CL_PLATFORM_NAME", "CL_DEVICE_INDEX", "CL_DEVICE_TYPE"]:
+                 "STY", "NO_COLOR", "CL_PLATFORM_INDEX", "CL_PLATFORM_NAME", "CL_DEVICE_INDEX", "CL_DEVICE_TYPE"]:
         variables.pop(name, None)
     if os.path.exists(POCL_DRIVER):
         variables["OCL_ICD_VENDORS"] = POCL_DRIVER

@@ -170,7 +170,7 @@ class Tev(CliTest):
         self.assertIn("tev does not respond", result.stderr)
 
     def test_nothing_waits_for_one_that_reads_slowly(self):
-        for outputs in [["out.pfm"], ["%s.pfm", scene_path("glass")]]:
+        for outputs in [["out.pfm"], ["%s.pfm", scene_path("glass"), "--threads", "1"]]:
             with self.subTest(outputs=outputs):
                 server = TevServer(slowly=True)
                 process = self.start("render", scene_path("cornell-box"), "--device", "threads",
