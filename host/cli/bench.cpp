@@ -19,10 +19,6 @@ struct BenchCall : BenchOptions {
     ResultFiles results;
 };
 
-std::string row_name(const BenchCase& asked) {
-    return fmt::format("{} ({})", key_of(asked), asked.device_name);
-}
-
 int run_bench(const BenchCall& options) {
     options.results.check({}, {});
     start_fresh_pocl_cache();
@@ -30,7 +26,9 @@ int run_bench(const BenchCall& options) {
     if (!options.results.take_stdout()) print_result(bench_text(result));
     options.results.write("--json", [&] { return result_json("bench", result); });
     options.results.write("--csv", [&] { return bench_csv(result); });
-    return report_bad_rows(result.rows, result.interrupted, row_name);
+    return report_bad_rows(result.rows, result.interrupted, [](const BenchCase& asked) {
+        return fmt::format("{} ({})", key_of(asked), asked.device_name);
+    });
 }
 
 }  // namespace
