@@ -159,7 +159,8 @@ class Bench(FiguresTest):
 
     def test_wrong_usage(self):
         for options in [["--aa", "none,mush"], ["--sizes", "0"], ["--devices", "threads:0"],
-                        ["--json", "--csv"], ["--schedules", "x"]]:
+                        ["--json", "--csv"], ["--schedules", "x"],
+                        ["--schedules", "buffers", "--aa", "adaptive:0.1", "--devices", "threads", "--sizes", "8"]]:
             run("bench", SCENE, *options, code=2)
 
 

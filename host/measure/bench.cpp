@@ -225,6 +225,10 @@ BenchResult measure_bench(const BenchOptions& options) {
     Plan plan(options);
     say_busy(options.quiet);
     result.interrupted = !plan.make(result);
+    if (!result.interrupted && plan.cases.empty()) {
+        usage_error(
+            "nothing to measure: --aa has no sample buffers, or no device has double precision");
+    }
     if (!result.interrupted) {
         result.interrupted = !run_rounds(plan.cases, options.repeats, options.quiet);
     }
