@@ -246,9 +246,8 @@ std::vector<std::string> verdicts_of(const RayTrial& trial, StressTolerance tole
     RenderCache cache;
     const StressFamily family{"rays", "", "", {{"1", 0, tolerance, trial, false}}};
     std::vector<std::string> verdicts;
-    for (const auto& row : run_stress_cases({family}, options, cache).families[0].cases[0].rows) {
-        verdicts.emplace_back(row.verdict());
-    }
+    const StressResult result = run_stress_cases({family}, options, cache);
+    for (const auto& row : result.families[0].cases[0].rows) verdicts.emplace_back(row.verdict());
     return verdicts;
 }
 
