@@ -43,7 +43,7 @@ int run_in_worker(const Invocation& call) {
     const WorkerCommand command{call.command, "", deadline, call.seconds_before_main};
     const WorkerEnd end = run_without_bad_drivers(command, call.drivers, false);
     if (end.is_regular) return end.status;
-    if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
+    end_if_stopped(end);
     throw Error(call.crash, (end.task.empty() ? "" : end.task + ": ") + "the worker process " +
                                 end.how + "; test each driver with 'mirrorball doctor'");
 }

@@ -107,13 +107,16 @@ int render_isolated(RenderOptions options, double seconds_before_main) {
                                                   options.drivers, options.quiet);
     if (end.is_regular) return end.status;
     const std::string failure = "the driver process " + end.how;
-    const bool is_stopped = end.stop_signal != 0;
-    if (options.no_fallback && is_stopped) end_by_stop_signal(end.stop_signal);
-    if (options.no_fallback) throw Error(ExitCode::device, name + ": " + failure);
+    if (options.no_fallback) {
+        end_if_stopped(end);
+        throw Error(ExitCode::device, name + ": " + failure);
+    }
     install_stop_signals();  // what the worker has finished is saved
-    if (is_stopped) note_stop(end.stop_signal);
-    if (!options.quiet && !is_stopped)
+    if (end.stop_signal != 0) {
+        note_stop(end.stop_signal);
+    } else if (!options.quiet) {
         print_note(name + ": " + failure + "; rendering on threads instead");
+    }
     // What the worker has written with --fresh is resumed.
     if (journal_time(options) != journal_before) options.fresh = false;
     if (options.timeout > 0) options.timeout = std::max(options.timeout - watch.seconds(), 0.001);

@@ -179,7 +179,6 @@ void install_stop_signals() {
 }
 
 void note_stop(int number) {
-    install_stop_signals();
     received_at = milliseconds_now();
     received = number;
 }

@@ -30,7 +30,7 @@ void restore_stop_signals();
 /// ignored. Call it after OpenCL has started: its runtimes replace existing handlers.
 void install_stop_signals();
 
-/// As if this stop signal had come after install_stop_signals, without a message.
+/// After install_stop_signals: as if this stop signal had come, without a message.
 void note_stop(int number);
 
 /// Sends this process SIGALRM after so many seconds.
