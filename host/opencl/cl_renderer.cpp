@@ -357,11 +357,11 @@ class ClRenderer : public Renderer<T> {
             if (progress.in_flight.size() < launches_in_flight) continue;
             finish_oldest(progress, region);
             if (since_count.seconds() < progress_seconds) continue;
-            count_rays(progress.queue, progress.in_flight);
+            count_rays(progress);
             since_count.lap();
         }
         while (!progress.in_flight.empty()) finish_oldest(progress, region);
-        count_rays(progress.queue, progress.in_flight);
+        count_rays(progress);
     }
 
     /// Reads the oldest launch back while the next one runs.
@@ -389,13 +389,14 @@ class ClRenderer : public Renderer<T> {
     }
 
     /// Adds to the queue the rays traced since the last call.
-    void count_rays(TileQueue& queue, const std::deque<InFlight>& in_flight) {
+    void count_rays(const Progress& progress) {
         if (!device_.is_cpu() && used_slots_ > kept_slots) {
             sum_counts_.setArg(1, static_cast<typename Flat<T>::Index>(used_slots_));
             queue_.enqueueNDRangeKernel(sum_counts_, cl::NullRange, kept_slots);
             used_slots_ = kept_slots;
         }
-        if (!device_.is_cpu() && !in_flight.empty()) wait_idly(in_flight.back().events.back());
+        const auto& launches = progress.in_flight;
+        if (!device_.is_cpu() && !launches.empty()) wait_idly(launches.back().events.back());
         auto* const mapped = static_cast<FlatCounts*>(queue_.enqueueMapBuffer(
             counts_, CL_TRUE, CL_MAP_READ, 0, used_slots_ * sizeof(FlatCounts)));
         RayCounts total;
@@ -407,7 +408,7 @@ class ClRenderer : public Renderer<T> {
             total.transmitted += slot.transmitted;
         }
         queue_.enqueueUnmapMemObject(counts_, mapped);
-        queue.add_rays(total - counted_);
+        progress.queue.add_rays(total - counted_);
         counted_ = total;
     }
 
