@@ -113,8 +113,8 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
         accepted: Iterable[int] = (0,), echo: bool = False) -> str:
     """What the program prints on stdout; `echo` passes its messages on to stderr as they come.
 
-    Raises Error if its exit code is not among the accepted, or is not 0 and it printed nothing. An interrupt, and what `progress` raises,
-    first stops the program and is then raised again.
+    Raises Error if its exit code is not among the accepted, or is not 0 and it printed nothing. An interrupt,
+    and what `progress` raises, first stops the program and is then raised again.
     """
     command = [find_program(), *(_word(word) for word in words)]
     said: list[str] = []

@@ -78,7 +78,8 @@ def verdict_details(study: Study) -> str:
     right = (f"All {len(rows)} combinations of device, size and sampling gave the right picture; float is within "
              f"RMSE {scientific(rounding)} of double.")
     if any(failed.values()):
-        right = f"Of {len(rows) + len(points)} combinations, {failed['wrong']} gave a wrong picture and {failed['failed']} failed."
+        right = (f"Of {len(rows) + len(points)} combinations, {failed['wrong']} gave a wrong picture and "
+                 f"{failed['failed']} failed.")
     best = min(study.largest(), key=trace_seconds, default=None)
     if best is None:
         return right

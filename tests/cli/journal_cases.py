@@ -233,7 +233,7 @@ class Resume(JournalTest):
         self.assertNotIn("resuming from", result.stderr)
         self.assertEqual(self.files(), ["out.png"])
 
-    def test_of_which_the_start_is_damaged_begins_anew(self):
+    def test_of_which_the_start_is_damaged_starts_over(self):
         self.share("0/2", "part.mbj", *SMALL)
         whole = self.bytes_of("part.mbj")
         for length in [8, 100]:
