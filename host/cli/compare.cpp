@@ -158,7 +158,7 @@ double parse_limit(const std::string& text) {
     if (!value || !std::isfinite(*value) || *value < 0) {
         refuse(text, "expected a number that is not negative, such as 0.01 or 2/255");
     }
-    return is_level ? *value / 255 : *value;
+    return is_level ? levels(*value) : *value;
 }
 
 double parse_scale(const std::string& text) {

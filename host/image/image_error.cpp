@@ -29,10 +29,6 @@ bool is_all_finite(const Picture& picture) {
     return !any;
 }
 
-/// Steps of an 8-bit picture, plus two float ulps below 1: pictures stored with 8 bits that are one
-/// step apart do not count as over 1/255.
-constexpr double levels(int count) { return count / 255.0 + 0x1p-23; }
-
 std::size_t pixel_count(const Picture& picture) {
     return picture.pixels.size() / static_cast<std::size_t>(picture.channels);
 }

@@ -41,6 +41,10 @@ void describe(A& a, X& x) {
     a("non_finite", x.non_finite, "pixels with a NaN or an infinity in either picture");
 }
 
+/// Steps of an 8-bit picture, plus two float ulps below 1: pictures stored with 8 bits that are one
+/// step apart do not count as over 1/255.
+constexpr double levels(double count) { return count / 255 + 0x1p-23; }
+
 /// Pixels with a NaN or an infinity in them.
 std::size_t count_non_finite(const Picture& picture);
 

@@ -81,6 +81,13 @@ class Figures(CompareTest):
         answer = self.figures("out.png", "film.pfm", "--clamp", "--max-abs", "0.5001/255")
         self.assertTrue(answer["clamped"])
 
+    def test_one_level_is_not_over_one_level(self):
+        for level in range(255):
+            for name, value in [("a.pfm", level), ("b.pfm", level + 1)]:
+                self.write_pfm(name, 1, 1, [numpy.float32(value / 255)] * 3)
+            self.compare("a.pfm", "b.pfm", "--max-abs", "1/255", "--max-rmse", "1/255", "--max-pixels", "0")
+        self.compare("a.pfm", "b.pfm", "--max-abs", "0.999/255", code=1)
+
     def test_formats_mix(self):
         for name in ["a.pfm", "a.exr"]:
             self.render("single-sphere", "--size", "16", "--device", "threads", "-o", name)
