@@ -2,7 +2,6 @@
 #include "host/view/viewer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <utility>
 
@@ -67,18 +66,20 @@ namespace {
 /// Time between updates: smooth to watch, and cheap.
 constexpr std::chrono::milliseconds interval(100);
 
-constexpr std::chrono::seconds patience(5);
-
 }  // namespace
 
-LivePicture::LivePicture(std::vector<std::unique_ptr<Viewer>> viewers)
-    : viewers_(std::move(viewers)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+LivePicture::LivePicture(std::vector<std::unique_ptr<Viewer>> viewers,
+                         std::chrono::milliseconds patience)
+    : viewers_(std::move(viewers)),
+      patience_(patience),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void LivePicture::begin(int width, int height) {
     const std::scoped_lock lock(mutex_);
     width_ = width;
     height_ = height;
     parts_.clear();
+    final_.reset();
     has_begun_ = true;
     is_shown_ = is_over_ = false;
 }
@@ -148,7 +149,7 @@ void LivePicture::finish(Picture picture) {
     std::unique_lock lock(mutex_);
     final_ = std::move(picture);
     changed_.notify_all();
-    changed_.wait_for(lock, patience, [this] { return is_shown_; });
+    changed_.wait_for(lock, patience_, [this] { return is_shown_; });
 }
 
 bool LivePicture::is_over() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -104,7 +105,9 @@ struct WindowModule {
 /// hangs never delays the render.
 class LivePicture {
    public:
-    explicit LivePicture(std::vector<std::unique_ptr<Viewer>> viewers);
+    /// `patience`: how long `finish` waits for viewers that hang.
+    explicit LivePicture(std::vector<std::unique_ptr<Viewer>> viewers,
+                         std::chrono::milliseconds patience = std::chrono::seconds(5));
     LivePicture(const LivePicture&) = delete;
     LivePicture& operator=(const LivePicture&) = delete;
 
@@ -114,7 +117,7 @@ class LivePicture {
     /// Adds the pixels of a rectangle, three numbers each, row by row; callable from any thread.
     void put(const Rect& part, std::vector<float> rgb);
 
-    /// Shows the final picture, waiting up to five seconds for viewers that hang.
+    /// Shows the final picture.
     void finish(Picture picture);
 
     /// After `finish`: whether all windows are closed and viewers have the picture.
@@ -133,6 +136,7 @@ class LivePicture {
     bool any_open() const;
 
     const std::vector<std::unique_ptr<Viewer>> viewers_;
+    const std::chrono::milliseconds patience_;
     std::mutex mutex_;
     std::condition_variable_any changed_;
     int width_ = 0, height_ = 0;
