@@ -162,8 +162,11 @@ class Job {
 
     /// Renders the region; a device that fails is left out afterwards. `names`: who renders.
     void render_with(Crew<T>& crew, const std::string& names) {
+        constexpr std::size_t floats = 3 * sizeof(float);
+        constexpr std::size_t copy = sizeof(T) == sizeof(float) ? 0 : floats;
+        const std::size_t viewers = events_.rendered ? 2 * floats : 0;  // LivePicture's
         check_memory(static_cast<std::uint64_t>(region_.pixels()) *
-                         (3 * (sizeof(T) + sizeof(float)) + file_bytes),
+                         (3 * sizeof(T) + copy + file_bytes + viewers),
                      fmt::format("the film of {}x{} pixels, including its file,", region_.width,
                                  region_.height),
                      "reduce --size, or render parts with --crop");

@@ -210,6 +210,14 @@ class NoRoom(CliTest):
                 self.assert_refused(result, 4, name, "ulimit")
                 self.assert_old_file_untouched(folder, name)
 
+    def test_memory_for_what_shows_the_picture_is_counted(self):
+        """Were it not, a picture would be lost once it is traced."""
+        for options, needs in [("", 6144), ("--tev=127.0.0.1:1", 12288), ("--precision double", 12288)]:
+            with self.subTest(options=options):
+                result = self.run_shell("ulimit -v 4000000; $MIRRORBALL render $SCENE --device threads "
+                                        f"--size 16384 -o out.png {options}")
+                self.assert_refused(result, 7, f"needs {needs} MiB", "reduce --size")
+
     def test_results_are_printed_even_if_their_file_cannot_be_written(self):
         result = self.run_cli("bench", scene_path(SCENE), "--sizes", "8", "--aa", "none",
                               "--devices", "threads:1", "--repeats", "1", "-q", "--json=/dev/full")
