@@ -98,6 +98,14 @@ TEST(ShadowCasters, AreNotListedAmongManyTrianglesWithoutAHierarchyEither) {
     EXPECT_TRUE(flat.casters.empty());
 }
 
+TEST(ShadowCasters, AreNotListedWhereManyPrimitivesAreInTheLightOfMany) {
+    Scene scene = floor_scene({});
+    scene.spheres.assign(10000, {{0, 0, 1}, 0.5, 0});
+    EXPECT_EQ(flatten<float>(scene).lights[0].caster_count, 0);
+    scene.lights.assign(1000, scene.lights[0]);
+    EXPECT_EQ(flatten<float>(scene).lights[0].caster_count, 2);
+}
+
 TEST(ShadowCasters, LeaveOutAFloorUnlessInDoubt) {
     using Lists = std::vector<std::vector<int>>;
     EXPECT_EQ(casters(floor_scene({})), Lists{{}});

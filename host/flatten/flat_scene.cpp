@@ -210,6 +210,17 @@ class Flattener {
         return before;
     }
 
+    /// Only where it takes little time, a step for each light, triangle and primitive.
+    bool lists_casters() const {
+        constexpr double most_steps = 1 << 24;
+        const std::size_t primitives = flat_.spheres.size() + flat_.cones.size();
+        const double steps = static_cast<double>(scene_.lights.size()) *
+                             static_cast<double>(flat_.triangles.size()) *
+                             static_cast<double>(primitives);
+        return options_.caster_lists && flat_.params.triangle_root == 0 &&
+               flat_.triangles.size() < triangle_crossover && steps <= most_steps;
+    }
+
     void flatten_lights() {
         if (!material_use_.reflects_lights) return;
         for (const Scene::Light& light : scene_.lights) {
@@ -218,10 +229,7 @@ class Flattener {
             flat.position = pack_position<T>(view_, light.position);
             flat.intensity = pack<T>(light.intensity);
             flat.caster_count = static_cast<Index>(flat_.triangles.size());
-            if (options_.caster_lists && flat_.params.triangle_root == 0 &&
-                flat_.triangles.size() < triangle_crossover) {
-                list_casters(light.position, flat);
-            }
+            if (lists_casters()) list_casters(light.position, flat);
             flat_.lights.push_back(flat);
             light_positions_.push_back(light.position);
             flat_.stats.casters += static_cast<std::uint64_t>(flat.caster_count);
