@@ -54,5 +54,23 @@ TEST(FlattenFrame, RefusesRadiiWhoseSquaresOverflow) {
     flatten<double>(scene);
 }
 
+TEST(FlattenFrame, RefusesTrianglesWhoseAreasOverflow) {
+    const auto triangle = [](double size) {
+        return Scene::Triangle{{{{-size, -size, 0}, {size, -size, 0}, {0, size, 0}}}, {}, 0};
+    };
+    for (const double small : {1e-70, 1e-80}) {
+        Scene scene;
+        scene.camera.from = {0, 0, 5 * small};
+        scene.materials.resize(1);
+        scene.triangles.assign(5, triangle(small));
+        scene.triangles.push_back(triangle(3));
+        if (small < 1e-75) {
+            EXPECT_EQ(refusal_of([&] { flatten<double>(scene); }).exit_code, ExitCode::input);
+        } else {
+            EXPECT_NE(flatten<double>(scene).triangles.back().normal.z, 0);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rt

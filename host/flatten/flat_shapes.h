@@ -33,9 +33,9 @@ typename Flat<T>::Packed3 pack_low(const glm::dvec3& v) {
     return pack<T>(v - glm::dvec3(high.x, high.y, high.z));
 }
 
-/// Squares of distances must stay finite in T.
+/// Squares of distances must stay finite in T, and those of areas in double.
 template <typename T>
-constexpr double farthest = sizeof(T) == sizeof(float) ? 0x1p60 : 0x1p500;
+constexpr double farthest = sizeof(T) == sizeof(float) ? 0x1p60 : 0x1p250;
 
 /// Whether to use intersect_huge_sphere of kernels/intersect.cl: the eye is within a radius of the
 /// surface, and the radius is large in the renderer's frame, where distances are about 1, or the
