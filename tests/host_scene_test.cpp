@@ -349,6 +349,7 @@ TEST(SceneWarnings, ColorsOfBytesAndMirrorsThatBrighten) {
                                    R"(, "background": [135, 206, 235])"),
                       bytes));
     EXPECT_TRUE(of(R"({"ambient": 1, "diffuse": [1, 0, 1], "specular": 2.5})").empty());
+    EXPECT_TRUE(of(R"({"ambient": [4, 4, 5], "diffuse": 16})").empty());
     EXPECT_TRUE(
         warns(of(R"({"ambient": 1, "mirror": [0, 1.5, 0]})"), "mirror of material 'm': exceeds 1"));
     EXPECT_TRUE(of(R"({"ambient": 1, "mirror": 1, "transmission": 1})").empty());

@@ -57,11 +57,11 @@ bool nothing_in_view(const Scene& scene) {
     return std::ranges::any_of(outside, [](bool all) { return all; });
 }
 
-/// Whether all channels are integers, and one is too large for a fraction.
+/// Whether all channels are integers, and one is too large for light.
 bool is_of_bytes(const glm::dvec3& color) {
     const bool whole =
         color == glm::dvec3(std::floor(color.r), std::floor(color.g), std::floor(color.b));
-    return whole && brightest(color) >= 2 && brightest(color) <= 255;
+    return whole && brightest(color) > 16 && brightest(color) <= 255;
 }
 
 using NamedColor = Named<glm::dvec3 Scene::Material::*>;
