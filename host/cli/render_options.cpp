@@ -81,7 +81,6 @@ Shares parse_shard(const std::string& text) {
 }
 
 std::vector<int> parse_frames(const std::string& text) {
-    constexpr int last_frame = 999999;
     const auto frames = parse_ranges(text, last_frame);
     if (!frames) refuse(text, "expected frames from 0 to 999999, such as 1-240 or 1,5,10-20");
     return *frames;

@@ -13,6 +13,9 @@
 
 namespace rt {
 
+/// Of an animation.
+inline constexpr int last_frame = 999999;
+
 /// Per-pixel data that render --aov saves in addition to the color.
 enum class Aov { depth, normal, id, rays, samples };
 

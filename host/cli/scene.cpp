@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "host/base/console.h"
@@ -132,6 +133,13 @@ std::string verdict_text(std::size_t warnings) {
                          : ": can be rendered, with " + counted(warnings, "warning") + "\n";
 }
 
+/// Throws Error (input) where the camera path has a frame without a view.
+void check_path(const Scene& scene) {
+    if (scene.path.keys.empty()) return;
+    const double last = std::min(scene.path.keys.back().frame, double{last_frame});
+    for (double frame = 0; frame <= last; ++frame) camera_at(scene, frame);
+}
+
 int check_scene(const SceneOptions& options) {
     std::string mistakes;
     ExitCode code = ExitCode::done;
@@ -139,6 +147,7 @@ int check_scene(const SceneOptions& options) {
     try {
         const Scene scene = load_scene(options.scene, options.light);
         flatten<float>(scene);
+        check_path(scene);
         notes = scene.notes;
         warnings = scene_warnings(scene);
     } catch (const Error& error) {

@@ -183,6 +183,13 @@ class Check(CliTest):
             self.assertEqual(len(info["warnings"]), 2)
         self.assertEqual(self.run_cli("scene", "info", path).stdout.count("  warning  "), 2)
 
+    def test_frames_between_keys(self):
+        """Halfway between the two keys the camera is where it looks."""
+        path = self.write_scene(
+            camera={"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40},
+            path={"interpolation": "linear", "keys": [{"frame": 1}, {"frame": 3, "from": [0, 0, -5]}]})
+        self.assert_refused(self.run_cli("scene", "check", path), 3, "the camera's path at frame 2")
+
 
 class Info(CliTest):
     def info(self, name):
