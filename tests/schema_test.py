@@ -42,6 +42,10 @@ SEEN_BY_READER_ONLY = {
     "triangle-zero-normal",
 }
 
+# As tests/host_scene_test.cpp has them for the reader.
+GOOD_AA = "none grid:1 grid:064 sobol:4096 adaptive:.05 adaptive:1. adaptive:1E-3 adaptive:0.05e0 edges:5.e-3 edges:00.5"
+BAD_AA = "grid:0 grid:65 grid:+2 GRID:2 sobol:0 sobol:4097 adaptive: edges:inf edges:0x1p-3"
+
 STRING_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|//[^\r\n]*|/\*.*?\*/', re.DOTALL)
 
 
@@ -74,6 +78,12 @@ def main():
     good = [path for path in schema_path.parent.rglob("*.json") if path.name not in ("scene.schema.json", "golden.json")]
     bad = list((root / "tests" / "scenes_bad").glob("*.json"))
     failures = 0 if good and bad else 1
+    aa = jsonschema.Draft202012Validator(schema["$defs"]["image"]["properties"]["aa"])
+    for texts, is_good in [(GOOD_AA, True), (BAD_AA, False)]:
+        for text in texts.split():
+            if aa.is_valid(text) != is_good:
+                print(f"aa {text!r}: {'fails' if is_good else 'passes'}")
+                failures += 1
     for path in [*good, *bad]:
         try:
             if path in good:

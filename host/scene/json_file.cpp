@@ -38,7 +38,7 @@ constexpr Named<Fixed> extents[] = {{"fov_degrees", Fixed::vertical},
 std::optional<std::string> read_name(const JsonField& field) {
     const auto name = read_string(field);
     if (!name || printable(*name) == *name) return name;
-    return field.refuse("'name' contains a control character; use plain text");
+    return field.refuse("'name' contains a control or invisible character; use plain text");
 }
 
 std::optional<AaMode> read_aa(const JsonField& field) {
