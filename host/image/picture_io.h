@@ -63,9 +63,9 @@ void check_picture_fits(const std::string& path, int width, int height,
                         std::optional<PictureFormat> format = {});
 
 /// Reads a picture in the format of its extension, any of PictureFormat. Integers become exactly
-/// v / 255 or v / 65535, floats are unchanged; no color conversion, alpha as stored. Regular files
-/// only; checks the size (check_picture_size) and free memory before allocating. Throws
-/// Error(ExitCode::input), or limit when memory is short.
+/// v / 255 or v / 65535 (of 16-bit PNM, OpenImageIO's nearly), floats are unchanged; no color
+/// conversion, alpha as stored. Regular files only; checks the size (check_picture_size) and free
+/// memory before allocating. Throws Error(ExitCode::input), or limit when memory is short.
 Picture read_picture(const std::string& path);
 
 /// The same with the file's metadata, in file order. Names other than "mirrorball:..." come from
