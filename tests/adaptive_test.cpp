@@ -12,7 +12,7 @@
 #include "host/explain/pixel_facts.h"
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// The largest difference between a pixel and its neighbors, one pair at a time; 1 near a NaN.
@@ -119,4 +119,4 @@ TEST(Adaptive, SeesNothingBeyondThePicture) {
 }
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

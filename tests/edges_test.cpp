@@ -17,7 +17,7 @@
 #include "tests/render_helpers.h"
 #include "tests/whole_film.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 constexpr int size = 48;
@@ -306,4 +306,4 @@ TEST(Edges, ReachesItsToleranceWithFewSamples) {
 }
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -20,7 +20,7 @@
 #include "host/picture/render_picture.h"
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 
 namespace {
 
@@ -227,4 +227,4 @@ TEST(ControlPixels, WeighWhatTheyStandFor) {
 
 }  // namespace
 
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -9,7 +9,7 @@
 #include "host/scene/scene_file.h"
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// Checks the tree's own sums: local light is ambient light plus the lights' contributions.
@@ -103,4 +103,4 @@ TEST(Explain, SaysWhereASphereWasHit) {
 }
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

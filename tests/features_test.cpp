@@ -14,7 +14,7 @@
 #include "tests/refusals.h"
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// No features, each one that a scene can need alone, and all.
@@ -160,4 +160,4 @@ TEST(Flatten, RefusesATreeDeeperThanItsStack) {
 }
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -16,7 +16,7 @@
 #include "host/stress/stress_scenes.h"
 #include "tests/test_random.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 template <typename T>
@@ -269,4 +269,4 @@ TYPED_TEST(BuildBvh, KeepsAMeshWithinAHundredBytesATriangle) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

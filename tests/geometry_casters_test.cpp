@@ -11,7 +11,7 @@
 #include "tests/hit_scenes.h"
 #include "tests/whole_film.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 template <typename T>
@@ -139,4 +139,4 @@ TEST(ShadowCasters, LeaveOutAFloorUnlessInDoubt) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -11,7 +11,7 @@
 #include "tests/brute_force.h"
 #include "tests/hit_scenes.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 template <typename T>
@@ -217,4 +217,4 @@ TYPED_TEST(Hits, AreTheTextbooks) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

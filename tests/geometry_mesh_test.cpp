@@ -12,7 +12,7 @@
 #include "host/scene/geometry.h"
 #include "host/scene/mesh.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using Positions = std::vector<glm::dvec3>;
@@ -247,4 +247,4 @@ TEST(MeshFaces, IntricateFacesAreFansOnceTheBudgetIsSpent) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -14,7 +14,7 @@
 #include "host/scene/scene_file.h"
 #include "tests/whole_film.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 /// Each number between two @ can be replaced.
@@ -130,4 +130,4 @@ TEST(OddNumbers, CamerasAndShapesWithoutSizeAreRefusedOrGiveNoNaN) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

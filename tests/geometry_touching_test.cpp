@@ -15,7 +15,7 @@
 #include "tests/test_random.h"
 #include "tests/whole_film.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 constexpr int size = 16;
@@ -271,4 +271,4 @@ TYPED_TEST(Touching, ShapesSmallerThanRoundingLookTheSameWithAndWithoutHierarchi
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

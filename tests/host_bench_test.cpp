@@ -12,7 +12,7 @@
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 TEST(Statistics, MedianIsTheMiddleOrTheMeanOfTheTwo) {
@@ -157,4 +157,4 @@ TEST(MachineLoad, LeavesOutOurOwn) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -8,7 +8,7 @@
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 Scene scene_with(const std::string& path) {
@@ -129,4 +129,4 @@ TEST(CameraPath, RefusesAViewWithoutADirection) {
 TEST(CameraPath, RefusesASceneWithoutOne) { EXPECT_THROW(camera_at(Scene{}, 1), Error); }
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -9,9 +9,8 @@
 #include "host/image/false_color.h"
 #include "host/image/image_error.h"
 
+namespace rt::this_file {
 namespace {
-
-using namespace rt;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -84,3 +83,4 @@ TEST(HeatColor, RisesInLightness) {
 }
 
 }  // namespace
+}  // namespace rt::this_file

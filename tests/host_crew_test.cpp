@@ -11,7 +11,7 @@
 #include "host/base/error.h"
 #include "host/picture/crew.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 const Rect picture{0, 0, 40, 30};
@@ -237,4 +237,4 @@ TEST(Crew, StopsWhileNobodyIsReady) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

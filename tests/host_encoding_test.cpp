@@ -7,7 +7,7 @@
 
 #include "host/image/encoding.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 TEST(Encode8bit, FollowsTheStandardCurve) {
@@ -34,4 +34,4 @@ TEST(Encode8bit, ClampsAndSendsNanToZero) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

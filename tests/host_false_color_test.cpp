@@ -6,7 +6,7 @@
 
 #include "host/image/false_color.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using Color = std::array<float, 3>;
@@ -68,4 +68,4 @@ TEST(ColorIds, HasAColorForEachOfManyNeighbors) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

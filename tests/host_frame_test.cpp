@@ -6,7 +6,7 @@
 #include "host/flatten/flat_scene.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 TEST(FlattenFrame, HasPixelsThatAreSquareToTheLastBitWhicheverSideTheFieldOfViewSpans) {
@@ -73,4 +73,4 @@ TEST(FlattenFrame, RefusesTrianglesWhoseAreasOverflow) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

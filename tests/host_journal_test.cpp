@@ -12,7 +12,7 @@
 #include "tests/refusals.h"
 #include "tests/test_random.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 constexpr StopFlag never_stopped{0};
@@ -279,4 +279,4 @@ TEST_F(Journals, HaveTheTilesThatAreFinished) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

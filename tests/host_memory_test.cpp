@@ -14,7 +14,7 @@
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ TEST(ResizeHuge, GrowsWithZerosAndAsksForLargePagesWhereThereIsMuch) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

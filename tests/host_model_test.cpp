@@ -17,7 +17,7 @@
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -280,4 +280,4 @@ TEST_F(ModelFiles, AnObjAloneFindsItsLibraryBesideIt) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

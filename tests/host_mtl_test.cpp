@@ -7,7 +7,7 @@
 #include "host/scene/text_file.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 Scene::Material mtl(const std::string& lines) {
@@ -125,4 +125,4 @@ TEST(ParseMtl, WhatIsNotDrawnIsCounted) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

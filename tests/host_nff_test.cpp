@@ -10,7 +10,7 @@
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST(LoadScene, LightOverridesReplaceWhatIsLeftOpen) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -9,7 +9,7 @@
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using Positions = std::vector<glm::dvec3>;
@@ -345,4 +345,4 @@ TEST(ParseObj, ChunksAndThreadsFindTheSameBlemishes) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

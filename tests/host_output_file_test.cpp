@@ -18,7 +18,7 @@
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,4 +171,4 @@ TEST_F(OutputPath, OutputsThatAreInputsAreRefused) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

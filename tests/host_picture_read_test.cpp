@@ -15,7 +15,7 @@
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -324,4 +324,4 @@ TEST_F(ReadPicture, KindsOfPngAndExr) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -17,7 +17,7 @@
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using WritePicture = ScratchFolder;
@@ -222,4 +222,4 @@ TEST(PictureModule, MayBeLoadedFromManyThreads) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

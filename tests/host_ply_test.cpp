@@ -14,7 +14,7 @@
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using Positions = std::vector<glm::dvec3>;
@@ -369,4 +369,4 @@ TEST(ParsePly, HeadersMayHaveLinesAndPropertiesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -10,7 +10,7 @@
 #include "tests/test_random.h"
 
 // The stress suite's reference against closed forms.
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 constexpr ReferenceKind both_kinds[] = {ReferenceKind::quad, ReferenceKind::extended};
@@ -292,4 +292,4 @@ TEST(Bound, IsPassedByNoRayThatHitsWhatIsInIt) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -25,7 +25,7 @@
 #include "host/scene/aa_mode.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 TEST(MakeTiles, CoverEveryPixelOnce) {
@@ -280,4 +280,4 @@ TEST(CountNonFinite, CountsPixelsAndNamesTheFirst) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

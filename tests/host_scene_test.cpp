@@ -19,7 +19,7 @@
 #include "host/scene/words.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -388,4 +388,4 @@ TEST(ParseJsonScene, MessagesShowNoBytesOfFileNamesThatTerminalsObey) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

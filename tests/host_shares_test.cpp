@@ -6,7 +6,7 @@
 
 #include "host/journal/shares.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 TEST(ParseShares, ReadsNumbersAndRanges) {
@@ -53,4 +53,4 @@ TEST(SharedBlocks, AreThePictureTogether) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

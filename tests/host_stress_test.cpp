@@ -13,7 +13,7 @@
 #include "host/stress/stress_scenes.h"
 #include "tests/refusals.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 // The families and their names
@@ -346,4 +346,4 @@ TEST(StressMeshes, AreClosed) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

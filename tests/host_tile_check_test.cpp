@@ -3,7 +3,7 @@
 
 #include "host/picture/crew.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 TEST(ImpossibleRays, AreNoneUpToARayABounceAndAShadowRayASurfaceAndLight) {
@@ -22,4 +22,4 @@ TEST(ImpossibleRays, AreNoneWithinABinaryTreeOfGlass) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

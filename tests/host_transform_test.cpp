@@ -8,7 +8,7 @@
 #include "host/scene/geometry.h"
 #include "host/scene/mesh.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using Faces = std::vector<Scene::Mesh::Face>;
@@ -98,4 +98,4 @@ TEST(FinishMesh, TrianglesWithoutAreaGo) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -7,7 +7,7 @@
 #include "host/render/native_kernels.h"
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 class EveryInstructionSet : public testing::TestWithParam<std::string> {
@@ -44,4 +44,4 @@ INSTANTIATE_TEST_SUITE_P(Here, EveryInstructionSet, testing::ValuesIn(native_isa
                          });
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -8,7 +8,7 @@
 
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// The scene with every position p replaced by scale * p + shift, and lengths by scale * length.
@@ -74,4 +74,4 @@ TEST(MovedScene, ScaledByAPowerOfTenDiffersOnlyAtEdges) {
 }
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -7,7 +7,7 @@
 #include "tests/test_random.h"
 #include "tests/test_shapes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -132,4 +132,4 @@ TYPED_TEST(CameraRay, OppositePixelsMirrorEachOther) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

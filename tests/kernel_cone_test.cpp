@@ -6,7 +6,7 @@
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -329,4 +329,4 @@ TYPED_TEST(ConeSurface, FacesTheViewerAtTheTip) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

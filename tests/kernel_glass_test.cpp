@@ -8,7 +8,7 @@
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -250,4 +250,4 @@ TYPED_TEST(TraceTree, FocusesABallWhereTheoryHasIt) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

@@ -8,7 +8,7 @@
 #include "tests/kernel_runner.h"
 #include "tests/probe_types.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 template <typename T>
@@ -100,4 +100,4 @@ TYPED_TEST(BoxEntry, IsFoundAlongTheSideOfABox) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

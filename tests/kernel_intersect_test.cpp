@@ -9,7 +9,7 @@
 #include "tests/test_random.h"
 #include "tests/test_shapes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -250,4 +250,4 @@ TYPED_TEST(MakeShear, PutsPointsOfTheRayOnTheAxis) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

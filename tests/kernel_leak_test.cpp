@@ -11,7 +11,7 @@
 #include "tests/test_random.h"
 #include "tests/test_shapes.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 /// Most rays per launch, so that a large count takes no more memory.
@@ -108,4 +108,4 @@ TYPED_TEST(ClosedMesh, WithATriangleMissingLeaks) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -7,7 +7,7 @@
 #include "tests/probe_types.h"
 #include "tests/test_random.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -281,4 +281,4 @@ TYPED_TEST(Reflect3, IsWithinFourRoundingsForUnitVectors) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

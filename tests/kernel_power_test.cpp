@@ -11,7 +11,7 @@
 #include "tests/probe_types.h"
 #include "tests/test_random.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -301,4 +301,4 @@ TYPED_TEST(BlinnLobe, LiesWithinZeroAndOneForAnyNumbers) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

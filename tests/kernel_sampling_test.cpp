@@ -14,7 +14,7 @@
 #include "tests/kernel_runner.h"
 #include "tests/test_random.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -261,4 +261,4 @@ TYPED_TEST(GridPosition, IsExactForPowersOfTwoAndElseWithinAnUlpOfOne) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

@@ -9,7 +9,7 @@
 #include "tests/probe_types.h"
 #include "tests/test_scenes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -320,4 +320,4 @@ TYPED_TEST(AnyHit, FindsNothingInAnEmptyScene) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

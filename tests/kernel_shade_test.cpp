@@ -8,7 +8,7 @@
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -241,4 +241,4 @@ TYPED_TEST(Shade, HasTheSameBitsEverywhereAmongShadows) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

@@ -8,7 +8,7 @@
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -426,4 +426,4 @@ TYPED_TEST(SpawnRay, CarriesWhatItsStartIsOffThePointLeft) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

@@ -8,7 +8,7 @@
 #include "tests/test_random.h"
 #include "tests/test_shapes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -174,4 +174,4 @@ TYPED_TEST(IntersectTriangle, HasTheSameBitsEverywhereOnAnyNumbers) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

@@ -5,7 +5,7 @@
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
 
-namespace rt {
+namespace rt::this_file {
 
 namespace {
 
@@ -256,4 +256,4 @@ TYPED_TEST(TracePixel, DoesNotDriftOverManySamples) {
 
 }  // namespace
 
-}  // namespace rt
+}  // namespace rt::this_file

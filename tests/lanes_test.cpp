@@ -11,7 +11,7 @@
 #include "host/scene/aa_mode.h"
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// Rendered once for all widths.
@@ -83,4 +83,4 @@ TEST(OneLane, GivesTheBitsOfLoneRaysWithWhatTheSceneNeedsAlone) {
 INSTANTIATE_TEST_SUITE_P(Lanes, EveryLaneWidth, testing::Values(1, 2, 4, 8, 16));
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

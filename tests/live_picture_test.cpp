@@ -5,7 +5,7 @@
 
 #include "host/view/viewer.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using namespace std::chrono_literals;
@@ -53,4 +53,4 @@ TEST(LivePicture, ForgetsAPictureThatViewersDidNotWaitForWhenTheNextBegins) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

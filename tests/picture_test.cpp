@@ -12,7 +12,7 @@
 #include "host/scene/scene_file.h"
 #include "tests/render_helpers.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// The scene at 160 pixels wide, to keep the tests short.
@@ -147,4 +147,4 @@ TEST(PaperSceneOblong, FloatStaysNearDoubleOnTheDiagonals) {
 INSTANTIATE_TEST_SUITE_P(Grids, PaperScene, testing::Values(1, 2));
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -34,7 +34,8 @@ set(OPTIMIZED_PROGRAMS geometry_tests kernel_tests)
 # ctest test of its own. NAME_whole fails where a suite is in none of them.
 function(add_test_program NAME LABEL)
     add_executable(${NAME} ${ARGN})
-    set_target_properties(${NAME} PROPERTIES UNITY_BUILD OFF)  # test files have helpers of one name
+    # Test files have helpers of one name, each in a namespace that CMake gives another name in each file.
+    set_target_properties(${NAME} PROPERTIES UNITY_BUILD_UNIQUE_ID this_file)
     target_link_libraries(${NAME} PRIVATE mirrorball_print GTest::gtest_main)
     set(level 0)
     if(NAME IN_LIST OPTIMIZED_PROGRAMS)

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 TEST(ProgressLine, TellsShareRateAndTimeLeft) {
@@ -30,4 +30,4 @@ TEST(ProgressLine, HasNoTimeLeftOnlyWhenAllIsDone) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -11,7 +11,7 @@
 #include "tests/render_helpers.h"
 #include "tests/whole_film.h"
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// Primary, shadow, mirror and transmitted rays.
@@ -78,4 +78,4 @@ INSTANTIATE_TEST_SUITE_P(Gallery, RaysOfScene, testing::ValuesIn(scene_files("ga
                          scene_name);
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file

@@ -9,7 +9,7 @@
 #include "host/print/print_stats.h"
 #include "host/stress/judge.h"
 
-namespace rt {
+namespace rt::this_file {
 namespace {
 
 using namespace record;
@@ -123,4 +123,4 @@ TEST(Schemas, AreWhatTheRecordsSay) {
 }
 
 }  // namespace
-}  // namespace rt
+}  // namespace rt::this_file

@@ -29,7 +29,7 @@ DECLARE_SWITCHABLE(rt_switchable_1);
 DECLARE_SWITCHABLE(rt_switchable_8);
 }
 
-namespace rt::test {
+namespace rt::test::this_file {
 namespace {
 
 /// With the entry points that are called here.
@@ -103,4 +103,4 @@ TEST(Switches, DoSomething) {
 }
 
 }  // namespace
-}  // namespace rt::test
+}  // namespace rt::test::this_file
