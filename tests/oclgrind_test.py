@@ -43,7 +43,7 @@ class Oclgrind(unittest.TestCase):
         scenes = sorted(str(path.relative_to(folder)) for path in folder.rglob("*.json")
                         if path.name not in ("golden.json", "scene.schema.json"))
         self.assertGreater(len(scenes), 10)
-        self.check(scenes, "--size", "12x9", "--aa", "none", "--features", "all")
+        self.check(scenes, "--size", "4x27", "--aa", "none", "--features", "all")
 
     def test_every_kernel(self):
         for options in [["--launch", "pixel"], ["--launch", "sample"], ["--launch", "pixel", "--precision", "double"],

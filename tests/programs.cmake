@@ -35,7 +35,7 @@ set(OPTIMIZED_PROGRAMS geometry_tests kernel_tests)
 function(add_test_program NAME LABEL)
     add_executable(${NAME} ${ARGN})
     # Test files have helpers of one name, each in a namespace that CMake gives another name in each file.
-    set_target_properties(${NAME} PROPERTIES UNITY_BUILD_UNIQUE_ID this_file)
+    set_target_properties(${NAME} PROPERTIES UNITY_BUILD_UNIQUE_ID this_file UNITY_BUILD_BATCH_SIZE 9)
     target_link_libraries(${NAME} PRIVATE mirrorball_print GTest::gtest_main)
     set(level 0)
     if(NAME IN_LIST OPTIMIZED_PROGRAMS)

@@ -31,8 +31,9 @@ class Output(unittest.TestCase):
 
     def test_rays_on_pocl(self):
         """Among them packets in which no ray meets anything."""
-        lines = stress("--case", "leaving-*,sphere-rays,cone-rays,rays-at-*", "--quick", "--device", "pocl",
-                       "--all-features", "-q").stdout.splitlines()
+        lines = stress("--case", "leaving-*/1e-06,leaving-*/1e+06,leaving-edges,sphere-rays/1e-06,sphere-rays/0.5,"
+                       "cone-rays/1e-06,cone-rays/0.5,rays-at-*", "--quick", "--device", "pocl", "--all-features",
+                       "-q").stdout.splitlines()
         self.assertRegex(lines[0], "^PASS: 9 of 9 families")
 
     def test_one_build_for_all_changes_no_bit(self):

@@ -9,7 +9,8 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SMALLER = {"SIZES = [100, 200, 300, 400, 500]": "SIZES = [16, 24]", "REPEATS = 5": "REPEATS = 1",
-           "THREADS = os.cpu_count()": "THREADS = 2", "reference_samples=256": "reference_samples=16"}
+           "THREADS = os.cpu_count()": "THREADS = 2", "reference_samples=256": "reference_samples=16",
+           'devices=["threads", "pocl"]': 'devices=["threads:1", "threads:2"]'}
 
 
 def code_cells(name):

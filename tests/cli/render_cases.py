@@ -27,9 +27,9 @@ class SameHash(CliTest):
         self.assertTrue(all(one == found[" ".join(paths[0])] for one in found.values()), json.dumps(found, indent=1))
 
     def test_on_every_path(self):
-        for picture in [["glass", "--size", "37x29"], ["cornell-box", "--size", "37x29", "--precision", "double"],
+        for picture in [["glass", "--size", "37x29"],
                         ["single-sphere", "--size", "9x7", "--aa", "grid:64"],
-                        *(["mirror-hall", "--size", "9x7", "--max-bounces", bounces] for bounces in ["0", "1", "50"])]:
+                        *(["mirror-hall", "--size", "9x7", "--max-bounces", bounces] for bounces in ["0", "50"])]:
             with self.subTest(picture=picture):
                 self.assert_one_picture(PATHS, *picture)
 

@@ -203,8 +203,8 @@ class Dies(WrongDriver):
                 "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("bad.icd", "good.icd")}
         scene = pathlib.Path(scene_path("single-sphere")).read_text(encoding="utf-8")
         for verb, size in [("bench", "--sizes"), ("converge", "--size")]:
-            result = self.run_with(shim, verb, "-", size, "8", "--aa", "none", "--repeats", "5", "-q",
-                                   text=scene, code=0)
+            result = self.run_with(shim, verb, "-", size, "8", "--aa", "none", "--precision", "float",
+                                   "--repeats", "5", "-q", text=scene, code=0)
             self.assertIn("bad.icd: its driver was killed by SIGABRT", result.stderr)
 
     def test_by_computing_for_ever_does_not_hold_up_devices_and_doctor(self):

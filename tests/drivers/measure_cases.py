@@ -41,7 +41,7 @@ class Bench(WrongDriver):
 
 
 class Converge(WrongDriver):
-    ARGUMENTS = ["converge", SCENE, "--size", "24", "--aa", "none,grid:2", "--precision", "float",
+    ARGUMENTS = ["converge", SCENE, "--size", "24", "--aa", "none", "--precision", "float",
                  "--devices", "pocl", "--repeats", "5", "--reference-samples", "16", "-q"]
 
     def test_a_picture_that_is_off_in_a_bit_is_wrong(self):
