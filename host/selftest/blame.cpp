@@ -96,7 +96,7 @@ class FunctionBlame {
         : device_(device), folder_(folder), blame_(blame), probes_(device) {}
 
     /// Fills the blame in, if a function is wrong. Those that take scenes, and many items, are
-    /// tried only if all others are right.
+    /// tried only if all others are right; after a wrong one, others in its precision and packets.
     void find() {
         const auto stage = [](const ProbeRecord& record) {
             return record.in_one_launch ? 2 : record.has_scene() ? 1 : 0;
@@ -105,8 +105,12 @@ class FunctionBlame {
         for (const FunctionCheck& check : function_checks(records_, device_, false)) {
             for (const ProbeRecord& record : check.records) {
                 if (!wrong.empty()) {
+                    const WrongFunction& first = wrong.front();
+                    const bool is_like_it = check.lanes == first.lanes &&
+                                            record.is_double == first.record->is_double &&
+                                            stage(record) == stage(*first.record);
                     const bool is_known = wrong.back().record->function == record.function;
-                    if (is_known || stage(record) > stage(*wrong.front().record)) continue;
+                    if (is_known || !is_like_it) continue;
                 }
                 std::string why = why_wrong(record, check.lanes);
                 if (!why.empty()) wrong.push_back({&record, check.lanes, std::move(why)});
