@@ -40,14 +40,13 @@ class Builder {
     using Node = typename Flat<T>::BvhNode;
     using Index = typename Flat<T>::Index;
 
-    Builder(std::span<BvhBox<T>> boxes, const BvhSettings& settings)
-        : boxes_(boxes), settings_(settings) {}
+    Builder(std::span<BvhBox<T>> boxes, int threads) : boxes_(boxes), threads_(threads) {}
 
     Index build(HugeVector<Node>& nodes) {
         if (nodes.size() % 2 == 0) nodes.push_back({});
         const std::size_t root = nodes.size();
         nodes.push_back({});
-        split_large({{bvh::whole_range<T>(boxes_, settings_.threads), root}}, nodes);
+        split_large({{bvh::whole_range<T>(boxes_, threads_), root}}, nodes);
         finish_tasks(nodes);
         return static_cast<Index>(root);
     }
@@ -63,20 +62,20 @@ class Builder {
     /// with all threads, the others in parallel.
     void split_large(std::vector<Task> level, HugeVector<Node>& nodes) {
         const std::size_t task_size = std::max(smallest_task, boxes_.size() / 64);
-        const auto threads = static_cast<std::size_t>(settings_.threads);
+        const auto threads = static_cast<std::size_t>(threads_);
         while (!level.empty()) {
             std::vector<bvh::Halves<T>> halves(level.size());
             const auto split = [&](std::size_t i, int on_it) {
-                halves[i] = bvh::split_range<T>(boxes_, level[i].range, settings_, on_it);
+                halves[i] = bvh::split_range<T>(boxes_, level[i].range, on_it);
             };
             const auto is_shared = [&](std::size_t i) {
                 return 2 * threads * level[i].range.count() > boxes_.size();
             };
             const auto is_task = [&](std::size_t i) { return level[i].range.count() <= task_size; };
             for (std::size_t i = 0; i < level.size(); ++i) {
-                if (is_shared(i) && !is_task(i)) split(i, settings_.threads);
+                if (is_shared(i) && !is_task(i)) split(i, threads_);
             }
-            for_each_run(level.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
+            for_each_run(level.size(), 1, threads_, [&](std::size_t i, std::size_t) {
                 if (!is_shared(i) && !is_task(i)) split(i, 1);
             });
             std::vector<Task> next;
@@ -110,7 +109,7 @@ class Builder {
         for (const Task& task : tasks_) {
             subtrees.push_back({{&block[2 * task.range.first], 2 * task.range.count()}});
         }
-        for_each_run(tasks_.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
+        for_each_run(tasks_.size(), 1, threads_, [&](std::size_t i, std::size_t) {
             build_subtree(tasks_[i].range, 1, subtrees[i]);
         });
         std::vector<std::size_t> starts;
@@ -120,7 +119,7 @@ class Builder {
             size += subtree.size - 2;
         }
         nodes.resize(size);
-        for_each_run(tasks_.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
+        for_each_run(tasks_.size(), 1, threads_, [&](std::size_t i, std::size_t) {
             const auto moved = [&](Node node) {
                 if (node.count == 0) node.first += static_cast<Index>(starts[i]) - 2;
                 return node;
@@ -133,7 +132,7 @@ class Builder {
     }
 
     void build_subtree(const bvh::Range<T>& range, std::size_t node, Subtree& subtree) {
-        const bvh::Halves<T> halves = bvh::split_range<T>(boxes_, range, settings_, 1);
+        const bvh::Halves<T> halves = bvh::split_range<T>(boxes_, range, 1);
         if (halves.is_leaf) {
             subtree.nodes[node] = {packed<T>(range.bounds.low), static_cast<Index>(range.first),
                                    packed<T>(range.bounds.high), static_cast<Index>(range.count())};
@@ -152,26 +151,23 @@ class Builder {
     }
 
     const std::span<BvhBox<T>> boxes_;
-    const BvhSettings settings_;
+    const int threads_;
     std::vector<Task> tasks_;
 };
 
 }  // namespace
 
 template <typename T>
-typename Flat<T>::Index build_bvh(std::span<BvhBox<T>> boxes, const BvhSettings& settings,
+typename Flat<T>::Index build_bvh(std::span<BvhBox<T>> boxes, int threads,
                                   HugeVector<typename Flat<T>::BvhNode>& nodes) {
-    return Builder<T>(boxes, settings).build(nodes);
+    return Builder<T>(boxes, threads).build(nodes);
 }
 
-template f32::Index build_bvh<float>(std::span<f32::BvhNode>, const BvhSettings&,
-                                     HugeVector<f32::BvhNode>&);
-template f64::Index build_bvh<double>(std::span<f64::BvhNode>, const BvhSettings&,
-                                      HugeVector<f64::BvhNode>&);
+template f32::Index build_bvh<float>(std::span<f32::BvhNode>, int, HugeVector<f32::BvhNode>&);
+template f64::Index build_bvh<double>(std::span<f64::BvhNode>, int, HugeVector<f64::BvhNode>&);
 
 template <typename T>
-BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Flat<T>::Index root,
-                  const BvhSettings& settings) {
+BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Flat<T>::Index root) {
     const auto area = [](const typename Flat<T>::BvhNode& node) {
         const double x = double(node.high.x) - node.low.x, y = double(node.high.y) - node.low.y;
         const double z = double(node.high.z) - node.low.z;
@@ -194,14 +190,14 @@ BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Fla
             continue;
         }
         shape.depth = std::max<int>(shape.depth, depth);
-        shape.sah_cost += share * settings.inner_cost;
+        shape.sah_cost += share * bvh_inner_cost;
         const auto pair = static_cast<std::size_t>(node.first) - start;
         depths[pair] = depths[pair + 1] = static_cast<std::uint8_t>(depth + 1);
     }
     return shape;
 }
 
-template BvhShape shape_of<float>(std::span<const f32::BvhNode>, f32::Index, const BvhSettings&);
-template BvhShape shape_of<double>(std::span<const f64::BvhNode>, f64::Index, const BvhSettings&);
+template BvhShape shape_of<float>(std::span<const f32::BvhNode>, f32::Index);
+template BvhShape shape_of<double>(std::span<const f64::BvhNode>, f64::Index);
 
 }  // namespace rt

@@ -364,12 +364,10 @@ Halves<T> halve(std::span<BvhBox<T>> boxes, const Range<T>& range) {
 template <typename T>
 class Splitting {
    public:
-    Splitting(std::span<BvhBox<T>> boxes, const Range<T>& range, const BvhSettings& settings,
-              T scale)
+    Splitting(std::span<BvhBox<T>> boxes, const Range<T>& range, T scale)
         : boxes_(boxes),
           own_(boxes.subspan(range.first, range.count())),
           range_(range),
-          settings_(settings),
           scale_(scale) {}
 
     Halves<T> few() const {
@@ -400,16 +398,15 @@ class Splitting {
    private:
     /// Whether a split is cheaper than a leaf, if a leaf is allowed.
     bool pays(const Split<T>& split) const {
-        if (own_.size() > static_cast<std::size_t>(settings_.most_in_leaf)) return true;
+        if (own_.size() > most_in_leaf) return true;
         const Vector<T> d = (range_.bounds.high - range_.bounds.low) * scale_;
         const T area = d[0] * (d[1] + d[2]) + d[1] * d[2];
-        const T inner = static_cast<T>(settings_.inner_cost) * area + split.cost;
+        const T inner = T(bvh_inner_cost) * area + split.cost;
         return inner < area * static_cast<T>(own_.size());
     }
 
     const std::span<BvhBox<T>> boxes_, own_;
     const Range<T>& range_;
-    const BvhSettings& settings_;
     const T scale_;
 };
 
@@ -432,26 +429,22 @@ Range<T> whole_range(std::span<const BvhBox<T>> boxes, int threads) {
 }
 
 template <typename T>
-Halves<T> split_range(std::span<BvhBox<T>> boxes, const Range<T>& range,
-                      const BvhSettings& settings, int threads) {
+Halves<T> split_range(std::span<BvhBox<T>> boxes, const Range<T>& range, int threads) {
     if (range.count() == 1) return {};
     const int halvings = std::bit_width(range.count());
     const bool too_deep = range.depth + halvings >= max_bvh_depth;
     const Vector<T> size = range.bounds.high - range.bounds.low;
     const T scale = T(1) / std::max({size[0], size[1], size[2]});
     if (too_deep || !std::isfinite(scale)) {
-        const bool fits = range.count() <= static_cast<std::size_t>(settings.most_in_leaf);
-        return fits ? Halves<T>{} : halve<T>(boxes, range);
+        return range.count() <= most_in_leaf ? Halves<T>{} : halve<T>(boxes, range);
     }
-    const Splitting<T> splitting(boxes, range, settings, scale);
+    const Splitting<T> splitting(boxes, range, scale);
     return range.count() <= few_boxes ? splitting.few() : splitting.many(threads);
 }
 
 template Range<float> whole_range<float>(std::span<const f32::BvhNode>, int);
 template Range<double> whole_range<double>(std::span<const f64::BvhNode>, int);
-template Halves<float> split_range<float>(std::span<f32::BvhNode>, const Range<float>&,
-                                          const BvhSettings&, int);
-template Halves<double> split_range<double>(std::span<f64::BvhNode>, const Range<double>&,
-                                            const BvhSettings&, int);
+template Halves<float> split_range<float>(std::span<f32::BvhNode>, const Range<float>&, int);
+template Halves<double> split_range<double>(std::span<f64::BvhNode>, const Range<double>&, int);
 
 }  // namespace rt::bvh

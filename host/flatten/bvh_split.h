@@ -94,10 +94,8 @@ template <typename T>
 Range<T> whole_range(std::span<const BvhBox<T>> boxes, int threads);
 
 /// Chooses what a range becomes, and reorders its boxes to match. A leaf holds at most
-/// settings.most_in_leaf, and none lies deeper than max_bvh_depth. Uses `threads` threads, not
-/// settings.threads; the outcome depends on neither.
+/// most_in_leaf, and none lies deeper than max_bvh_depth.
 template <typename T>
-Halves<T> split_range(std::span<BvhBox<T>> boxes, const Range<T>& range,
-                      const BvhSettings& settings, int threads);
+Halves<T> split_range(std::span<BvhBox<T>> boxes, const Range<T>& range, int threads);
 
 }  // namespace rt::bvh

@@ -40,9 +40,9 @@ class Flattener {
 
     FlatScene<T> run() {
         flat_.params = flatten_params<T>(view_, scene_);
-        const Kind spheres{sphere_crossover, &Params::sphere_root, &FlattenStats::spheres};
+        const Kind spheres{&Params::sphere_root, &FlattenStats::spheres};
         spheres_order_ = flatten_kind(spheres, scene_.spheres, flatten_sphere<T>, flat_.spheres);
-        const Kind cones{cone_crossover, &Params::cone_root, &FlattenStats::cones};
+        const Kind cones{&Params::cone_root, &FlattenStats::cones};
         cones_order_ = flatten_kind(cones, scene_.cones, flatten_cone<T>, flat_.cones);
         flatten_triangles();
         for (const auto& material : scene_.materials) {
@@ -66,7 +66,6 @@ class Flattener {
 
     /// One kind of primitive.
     struct Kind {
-        std::size_t crossover;
         Index Params::*root;
         BvhShape FlattenStats::*shape;
     };
@@ -111,22 +110,20 @@ class Flattener {
     /// enough.
     template <typename Box>
     Order add_hierarchy(const Kind& kind, std::size_t count, const Box& box) {
-        std::size_t crossover = kind.crossover;
+        std::size_t crossover = bvh_crossover;
         if (options_.hierarchies.has_value()) crossover = *options_.hierarchies ? 2 : count + 1;
         if (count < crossover) return {};
         const auto start = std::chrono::steady_clock::now();
-        BvhSettings settings;
-        settings.threads = options_.threads;
         Order order(count);
         HugeVector<BvhBox<T>> boxes(count);
         for_each(count, [&](std::size_t i) {
             boxes[i] = box(i);
             boxes[i].first = static_cast<Index>(i);
         });
-        const Index root = build_bvh<T>(boxes, settings, flat_.nodes);
+        const Index root = build_bvh<T>(boxes, options_.threads, flat_.nodes);
         flat_.params.*kind.root = root;
         for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
-        flat_.stats.*kind.shape = shape_of<T>(flat_.nodes, root, settings);
+        flat_.stats.*kind.shape = shape_of<T>(flat_.nodes, root);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         flat_.stats.bvh_seconds += taken.count();
         return order;
@@ -169,7 +166,7 @@ class Flattener {
     /// leaf order: memory never holds them twice, nor along with the boxes.
     void flatten_triangles() {
         const auto count = static_cast<std::size_t>(triangles_.size());
-        const Kind kind{triangle_crossover, &Params::triangle_root, &FlattenStats::triangles};
+        const Kind kind{&Params::triangle_root, &FlattenStats::triangles};
         triangles_order_ = add_hierarchy(kind, count, [&](std::size_t i) {
             const TriangleList::Corners corners = triangles_.corners(i);
             return box_of<T>(pack_position<T>(view_, corners[0]),
@@ -218,7 +215,7 @@ class Flattener {
                              static_cast<double>(flat_.triangles.size()) *
                              static_cast<double>(primitives);
         return options_.caster_lists && flat_.params.triangle_root == 0 &&
-               flat_.triangles.size() < triangle_crossover && steps <= most_steps;
+               flat_.triangles.size() < bvh_crossover && steps <= most_steps;
     }
 
     void flatten_lights() {

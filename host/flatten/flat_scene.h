@@ -14,9 +14,7 @@
 namespace rt {
 
 /// A kind with fewer primitives than this has no hierarchy: a ray tests each of them.
-inline constexpr std::size_t sphere_crossover = 24;
-inline constexpr std::size_t cone_crossover = 24;
-inline constexpr std::size_t triangle_crossover = 24;
+inline constexpr std::size_t bvh_crossover = 24;
 
 /// What flatten built over the primitives; all 0 for a kind without a hierarchy.
 struct FlattenStats {

@@ -58,7 +58,7 @@ rt::Scene scene_of(const std::string& path, const std::string& size, const std::
 rt::FlatScene<float> flat_scene(const rt::Scene& scene) {
     rt::FlattenOptions options;
     options.hierarchies = false;
-    options.caster_lists = scene.triangles.size() < rt::triangle_crossover;
+    options.caster_lists = scene.triangles.size() < rt::bvh_crossover;
     rt::FlatScene<float> flat = rt::flatten<float>(scene, options);
     if (flat.params.grid == 0) throw std::runtime_error("only none and grid:N are traced here");
     if (!flat.cones.empty() || !flat.vertex_normals.empty()) {
