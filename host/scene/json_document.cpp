@@ -101,7 +101,7 @@ class TreeBuilder {
     std::size_t read() const { return static_cast<std::size_t>(next_ - text_.data()); }
 
     void fail(std::size_t offset, std::string message) {
-        mistakes_.add(offset, std::move(message));
+        mistakes_.add(offset, "{}", message);
         mistakes_.throw_if_any();
     }
 

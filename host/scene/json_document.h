@@ -60,7 +60,7 @@ struct JsonField {
     /// Notes "what is wrong; what to do".
     template <typename... Args>
     std::nullopt_t refuse(fmt::format_string<Args...> message, Args&&... args) const {
-        mistakes.add(value.offset, fmt::format(message, std::forward<Args>(args)...));
+        mistakes.add(value.offset, message, std::forward<Args>(args)...);
         return std::nullopt;
     }
 

@@ -405,7 +405,7 @@ class JsonSceneReader {
     /// Adds a model, and its materials unless it gets another, to the scene.
     void load_mesh(const MeshRequest& request) {
         const OpenedFile opened = open_beneath(folder_, request.file);
-        if (!opened.problem.empty()) return mistakes_.add(request.offset, opened.problem);
+        if (!opened.problem.empty()) return mistakes_.add(request.offset, "{}", opened.problem);
         const ModelOptions options{folder_.root, !request.material, request.transform};
         Model model = load_model(opened.file, opened.path, options);
         std::vector<int>& materials = model.mesh.face_materials;

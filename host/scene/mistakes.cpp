@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mistakes.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -32,38 +34,27 @@ Mistakes::Mistakes(std::string_view text, std::string_view file_name)
 
 void Mistakes::report(const Remedy* remedy, std::size_t offset, std::string message,
                       std::size_t count, std::string where) {
-    Mistake mistake{offset, std::move(message), std::move(where)};
-    const auto same = std::ranges::find(notes_, remedy, &Note::remedy);
-    if (!remedy) {
-        found_.push_back(std::move(mistake));
-        if (found_.size() >= max_count) throw_if_any();
-    } else if (same != notes_.end()) {
+    const auto same = std::ranges::find(found_, remedy, &Mistake::remedy);
+    if (remedy && same != found_.end()) {
         same->count += count;
-    } else {
-        notes_.push_back({std::move(mistake), remedy, count});
+        return;
     }
+    found_.push_back({offset, std::move(message), std::move(where), remedy, count});
+    if (!remedy && this->count() >= max_count) throw_if_any();
+}
+
+std::size_t Mistakes::count() const {
+    return static_cast<std::size_t>(std::ranges::count(found_, nullptr, &Mistake::remedy));
 }
 
 void Mistakes::take_notes(const Mistakes& part) {
-    for (const auto& [first, remedy, count] : part.notes_) {
-        report(remedy, first.offset, first.message, count, first.where);
+    for (const auto& [offset, message, where, remedy, count] : part.found_) {
+        report(remedy, offset, message, count, where);
     }
-}
-
-std::vector<std::string> Mistakes::notes() const {
-    std::vector<Note> sorted;
-    std::ranges::copy_if(notes_, std::back_inserter(sorted), &Note::count);
-    std::ranges::stable_sort(sorted, {}, [](const Note& note) { return note.first.offset; });
-    std::vector<std::string> lines;
-    for (const Note& note : sorted) {
-        lines.push_back(fmt::format("{} ({})", line(note.first),
-                                    counted(note.count, note.remedy->one, note.remedy->many)));
-    }
-    return lines;
 }
 
 void Mistakes::refuse_notes() {
-    for (const Note& note : notes_) found_.push_back(note.first);
+    for (Mistake& note : found_) note.remedy = nullptr;
     throw_if_any();
 }
 
@@ -71,22 +62,25 @@ std::string Mistakes::place(std::size_t offset) const {
     return file_name_ + ":" + position_of(text_, offset);
 }
 
-std::string Mistakes::line(const Mistake& mistake) const {
-    const std::string where =
-        mistake.where.empty() ? place(mistake.offset) : file_name_ + ": " + mistake.where;
-    return where + ": " + mistake.message;
+std::vector<std::string> Mistakes::lines(bool are_notes) const {
+    std::vector<Mistake> sorted;
+    std::ranges::copy_if(found_, std::back_inserter(sorted), [&](const Mistake& mistake) {
+        return are_notes ? mistake.remedy && mistake.count > 0 : !mistake.remedy;
+    });
+    std::ranges::stable_sort(sorted, {}, &Mistake::offset);
+    std::vector<std::string> lines;
+    for (const auto& [offset, message, where, remedy, count] : sorted) {
+        std::string& line =
+            lines.emplace_back(where.empty() ? place(offset) : file_name_ + ": " + where);
+        line += ": " + message;
+        if (remedy) line += fmt::format(" ({})", counted(count, remedy->one, remedy->many));
+    }
+    return lines;
 }
 
 void Mistakes::throw_if_any() const {
-    if (found_.empty()) return;
-    std::vector<Mistake> sorted = found_;
-    std::ranges::stable_sort(sorted, {}, &Mistake::offset);
-    std::string lines;
-    for (const Mistake& mistake : sorted) {
-        if (!lines.empty()) lines += '\n';
-        lines += line(mistake);
-    }
-    throw Error(ExitCode::input, lines);
+    const std::vector<std::string> errors = lines(false);
+    if (!errors.empty()) throw Error(ExitCode::input, fmt::format("{}", fmt::join(errors, "\n")));
 }
 
 }  // namespace rt

@@ -27,29 +27,22 @@ class Mistakes {
 
     Mistakes(std::string_view text, std::string_view file_name);
 
-    /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
-    void add(std::size_t offset, std::string message) {
-        report(nullptr, offset, std::move(message));
-    }
-
-    /// The same with a message to be formatted.
+    /// Adds an error, "what is wrong; what to do", at a byte offset. Throws when max_count is
+    /// reached.
     template <typename... Args>
-    requires(sizeof...(Args) > 0) void add(std::size_t offset, fmt::format_string<Args...> message,
-                                           Args&&... args) {
-        add(offset, fmt::format(message, std::forward<Args>(args)...));
+    void add(std::size_t offset, fmt::format_string<Args...> message, Args&&... args) {
+        report(nullptr, offset, fmt::format(message, std::forward<Args>(args)...));
     }
 
-    std::size_t count() const { return found_.size(); }
+    /// How many errors there are.
+    std::size_t count() const;
 
     /// Notes a blemish. Of those with the same remedy, the first is kept and all are counted, so
     /// that a million of them are one line.
-    void note(const Remedy& remedy, std::size_t offset, std::string message) {
-        report(&remedy, offset, std::move(message));
-    }
     template <typename... Args>
-    requires(sizeof...(Args) > 0) void note(const Remedy& remedy, std::size_t offset,
-                                            fmt::format_string<Args...> message, Args&&... args) {
-        note(remedy, offset, fmt::format(message, std::forward<Args>(args)...));
+    void note(const Remedy& remedy, std::size_t offset, fmt::format_string<Args...> message,
+              Args&&... args) {
+        report(&remedy, offset, fmt::format(message, std::forward<Args>(args)...));
     }
 
     /// Notes a blemish or, without a remedy, adds an error. A `count` of 0 only gives the reason
@@ -58,13 +51,13 @@ class Mistakes {
     void report(const Remedy* remedy, std::size_t offset, std::string message,
                 std::size_t count = 1, std::string where = {});
 
-    bool has_notes() const { return !notes_.empty(); }
+    bool is_empty() const { return found_.empty(); }
 
     /// Takes over the notes of a later part of the same text.
     void take_notes(const Mistakes& part);
 
     /// "file:line:column: message (3 faces left out)", in file order.
-    std::vector<std::string> notes() const;
+    std::vector<std::string> notes() const { return lines(true); }
 
     /// Throws the notes as errors, if there are any: they are why nothing is left.
     void refuse_notes();
@@ -82,21 +75,17 @@ class Mistakes {
     struct Mistake {
         std::size_t offset;
         std::string message;
-        std::string where;  ///< empty: use line and column of the offset
+        std::string where;     ///< empty: use line and column of the offset
+        const Remedy* remedy;  ///< null: an error
+        std::size_t count;     ///< of notes with this remedy, of which this is the first
     };
 
-    struct Note {
-        Mistake first;
-        const Remedy* remedy;
-        std::size_t count;
-    };
-
-    std::string line(const Mistake& mistake) const;
+    /// In file order: the notes, or the errors.
+    std::vector<std::string> lines(bool are_notes) const;
 
     std::string_view text_;
     std::string file_name_;
     std::vector<Mistake> found_;
-    std::vector<Note> notes_;
 };
 
 }  // namespace rt

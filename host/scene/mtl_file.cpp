@@ -274,7 +274,7 @@ void ObjMaterials::assign(Model& model, const OpenLibrary& open, Mistakes& mista
         const std::string problem = tries ? libraries.add_all(statement.name) : "not looked for";
         if (problem.empty()) continue;
         ++lacking;
-        mistakes.note(missing, statement.offset, problem + "; until then its materials are gray");
+        mistakes.note(missing, statement.offset, "{}; until then its materials are gray", problem);
     }
     std::unordered_map<std::string_view, int> known;
     std::vector<std::string_view> names;

@@ -252,7 +252,7 @@ class NffReader {
         if (mistakes_.count() != before) return true;
         const Scene::Camera& camera = scene_.camera;
         if (const auto mistake = find_axes_mistake(camera.from, camera.at, camera.up)) {
-            mistakes_.add(*places[mistake->is_up ? 2 : 1], mistake->message);
+            mistakes_.add(*places[mistake->is_up ? 2 : 1], "{}", mistake->message);
         }
         return true;
     }
@@ -422,7 +422,7 @@ class NffReader {
         const bool smooth = normals_.size() == corners_.size();
         if (const auto* blemish = split_polygon(corners_, polygon_work_, parts_)) {
             has_lost_ = true;
-            mistakes_.note(blemish->remedy, offset, blemish->message);
+            mistakes_.note(blemish->remedy, offset, "{}", blemish->message);
         }
         for (const auto& [a, b, c] : parts_) {
             Scene::Triangle triangle{{corners_[a], corners_[b], corners_[c]}, {}, material()};

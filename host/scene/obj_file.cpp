@@ -238,7 +238,7 @@ class FaceReader {
             notes_.note(bad_face, offset, "the face has more than {} corners; split it",
                         max_face_corners);
         } else if (!all_readable_ && has_unreadable(corners_, positions_)) {
-            notes_.note(bad_vertex, offset, {});
+            notes_.note(bad_vertex, offset, "");
         } else {
             if (!read_normals(offset)) normals_.clear();
             auto* const rows = all_normals_.empty() ? nullptr : &chunk_.face_normals;
@@ -267,7 +267,7 @@ class FaceReader {
             }
         }
         if (all_readable_ || !has_unreadable(normals_, all_normals_)) return true;
-        notes_.note(bad_normal, offset, {});
+        notes_.note(bad_normal, offset, "");
         return false;
     }
 
@@ -328,7 +328,7 @@ class ObjReader {
         for (const Chunk& chunk : chunks_) {
             above.push_back({above.back().positions + chunk.positions.size(),
                              above.back().normals + chunk.normals.size()});
-            all_readable = all_readable && !chunk.notes.has_notes();
+            all_readable = all_readable && chunk.notes.is_empty();
         }
         Positions& positions = builder_.mesh.positions;
         Positions& normals = builder_.mesh.normals;
@@ -370,7 +370,7 @@ class ObjReader {
             if (event.corners.empty()) {
                 builder_.use_material(materials_.use(event.material));
             } else if (const auto* blemish = builder_.add_face(event.corners, event.normals)) {
-                mistakes_.note(blemish->remedy, event.material.offset, blemish->message);
+                mistakes_.note(blemish->remedy, event.material.offset, "{}", blemish->message);
             }
         }
         add_up_to(chunk.faces.size());

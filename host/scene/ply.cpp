@@ -44,7 +44,7 @@ class HeaderReader {
 
    private:
     void fail(std::size_t offset, std::string message) {
-        mistakes_.add(offset, std::move(message));
+        mistakes_.add(offset, "{}", message);
         mistakes_.throw_if_any();
     }
 
