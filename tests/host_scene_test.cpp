@@ -376,6 +376,14 @@ TEST(Printable, WhatATerminalObeysIsEscaped) {
     EXPECT_EQ(printable("\u2028\ufeff"), "\\xe2\\x80\\xa8\\xef\\xbb\\xbf");
     EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");  // not UTF-8
     EXPECT_EQ(printable("\xc3\u00f6"), "\\xc3\u00f6");
+    EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // overlong
+    EXPECT_EQ(printable("\xe0\x9f\xbf"), "\\xe0\\x9f\\xbf");           // overlong
+    EXPECT_EQ(printable("\xf0\x8f\xbf\xbf"), "\\xf0\\x8f\\xbf\\xbf");  // overlong
+    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // a surrogate
+    EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // U+110000
+    EXPECT_EQ(printable("\xf8\x88\x80\x80\x80"), "\\xf8\\x88\\x80\\x80\\x80");
+    EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");  // cut off
+    EXPECT_EQ(printable("\xf4\x8f\xbf\xbd"), "\xf4\x8f\xbf\xbd");
 }
 
 TEST(ParseJsonScene, MessagesShowNoBytesOfFileNamesThatTerminalsObey) {

@@ -81,14 +81,6 @@ constexpr bool is_utf8_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
 
-/// Bytes of the well-formed character (Unicode 15, table 3-7) at the start of the text; 0 if there
-/// is none or it is NUL.
-std::size_t utf8_character_length(std::string_view text);
-
-/// Offset of the first NUL or byte that is not well-formed UTF-8 (Unicode 15, table 3-7); empty
-/// when the whole text is valid.
-std::optional<std::size_t> find_invalid_utf8(std::string_view text);
-
 /// Bytes of the text's first character if it is safe to show, else 0: control characters (C0, C1),
 /// invalid UTF-8, line separators, and characters that are invisible or change the writing
 /// direction.

@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t max_json_values = std::size_t{1} << 25;
 constexpr std::size_t max_json_depth = 64;
 
+constexpr const char* not_utf8 = "the file is not UTF-8 text; save it as UTF-8";
+
 /// A character of the text, for the parser, which says nowhere how far it has read.
 struct Cursor {
     using iterator_category = std::input_iterator_tag;
@@ -91,8 +93,10 @@ class TreeBuilder {
         const std::string word = in_quotes(text_.substr(offset, end - offset));
         if (is_word) message = "invalid word " + word;
         const bool is_too_large = error.id == 406;
+        const bool is_utf8 = !message.ends_with("ill-formed UTF-8 byte");
         fail(offset, is_too_large ? "number " + word + " is too large; write one from -1e30 to 1e30"
-                                  : message + "; correct the JSON text");
+                     : is_utf8    ? message + "; correct the JSON text"
+                                  : not_utf8);
         return false;
     }
 
@@ -191,8 +195,8 @@ std::optional<glm::dvec3> read_triple(const JsonField& field, std::string_view w
 
 JsonValue parse_json(Mistakes& mistakes) {
     const std::string_view text = mistakes.text();
-    if (const auto invalid = find_invalid_utf8(text)) {
-        mistakes.add(*invalid, "the file is not UTF-8 text; save it as UTF-8");
+    if (const std::size_t nul = text.find('\0'); nul != text.npos) {  // ends the parser's text
+        mistakes.add(nul, "{}", not_utf8);
         mistakes.throw_if_any();
     }
     return TreeBuilder(mistakes).build();
