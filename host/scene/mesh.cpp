@@ -2,7 +2,6 @@
 #include "host/scene/mesh.h"
 
 #include <algorithm>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -116,43 +115,24 @@ bool parts_well(const std::array<glm::dvec3, 4>& quad) {
     return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
 }
 
-bool append_usual_face(std::span<const std::uint32_t> corners,
-                       std::span<const std::uint32_t> normals,
-                       const std::vector<glm::dvec3>& positions, std::vector<Face>& faces,
-                       std::vector<Face>* face_normals) {
+const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
+                                  std::span<const std::uint32_t> normals,
+                                  const std::vector<glm::dvec3>& positions, std::int64_t work,
+                                  std::vector<Face>& faces, std::vector<Face>* face_normals) {
     const auto& p = positions;
     const auto& c = corners;
     const bool is_quad = c.size() == 4 && parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]});
-    if (c.size() != 3 && !is_quad) return false;
-    append_triangle({0, 1, 2}, corners, normals, faces, face_normals);
-    if (is_quad) append_triangle({0, 2, 3}, corners, normals, faces, face_normals);
-    return true;
-}
-
-const PolygonBlemish* MeshBuilder::add_face(std::span<const std::uint32_t> corners,
-                                            std::span<const std::uint32_t> normals) {
-    auto* const rows = mesh.normals.empty() ? nullptr : &mesh.face_normals;
-    if (append_usual_face(corners, normals, mesh.positions, mesh.faces, rows)) return nullptr;
-    outline_.clear();
-    for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
-    const PolygonBlemish* const blemish = split_polygon(outline_, polygon_work_, parts_);
-    for (const Face& which : parts_) append_triangle(which, corners, normals, mesh.faces, rows);
+    if (c.size() == 3 || is_quad) {
+        append_triangle({0, 1, 2}, corners, normals, faces, face_normals);
+        if (is_quad) append_triangle({0, 2, 3}, corners, normals, faces, face_normals);
+        return nullptr;
+    }
+    std::vector<glm::dvec3> outline;
+    for (const std::uint32_t corner : corners) outline.push_back(positions[corner]);
+    std::vector<Face> parts;
+    const PolygonBlemish* const blemish = split_polygon(outline, work, parts);
+    for (const Face& which : parts) append_triangle(which, corners, normals, faces, face_normals);
     return blemish;
-}
-
-void MeshBuilder::use_material(int material) {
-    mesh.face_materials.resize(mesh.faces.size(), material_);
-    material_ = material;
-}
-
-Scene::Mesh MeshBuilder::take() {
-    use_material(-1);
-    std::vector<int>& materials = mesh.face_materials;
-    const bool same = std::ranges::adjacent_find(materials, std::not_equal_to{}) == materials.end();
-    if (same) materials.resize(1, -1);
-    const auto is_flat = [](const Face& normals) { return normals == flat_face; };
-    if (std::ranges::all_of(mesh.face_normals, is_flat)) mesh.face_normals.clear();
-    return std::move(mesh);
 }
 
 MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform) {

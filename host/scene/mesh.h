@@ -26,38 +26,15 @@ inline bool is_within(const glm::dvec3& p) {
 /// the same way, beyond rounding error. True for most.
 bool parts_well(const std::array<glm::dvec3, 4>& quad);
 
-/// Appends the triangles of a face, if it is one of the usual ones: a triangle, or a quadrilateral
-/// that parts well. `corners` are indices into positions; `normals` as many into the normals, or
-/// none. `face_normals` gets a row for each triangle; null for a mesh without normals.
-bool append_usual_face(std::span<const std::uint32_t> corners,
-                       std::span<const std::uint32_t> normals,
-                       const std::vector<glm::dvec3>& positions,
-                       std::vector<Scene::Mesh::Face>& faces,
-                       std::vector<Scene::Mesh::Face>* face_normals);
-
-/// Turns a model's faces, with any number of corners, into the triangles of a mesh. Readers write
-/// positions and normals, and faces that are triangles, directly to `mesh`.
-class MeshBuilder {
-   public:
-    Scene::Mesh mesh;
-
-    /// `corners` are at least 3 indices into mesh.positions; `normals` as many into mesh.normals,
-    /// or none. All must be in range. Returns what is wrong with the face, or null.
-    const PolygonBlemish* add_face(std::span<const std::uint32_t> corners,
-                                   std::span<const std::uint32_t> normals);
-
-    /// Sets the material of subsequent faces. Faces before the first call have material -1.
-    void use_material(int material);
-
-    /// The mesh, complete with face_materials.
-    Scene::Mesh take();
-
-   private:
-    int material_ = -1;                ///< of subsequent faces
-    std::vector<glm::dvec3> outline_;  ///< of the face at hand
-    std::vector<Scene::Mesh::Face> parts_;
-    std::int64_t polygon_work_ = max_polygon_work;
-};
+/// Appends the triangles of a face of at least 3 corners, which are indices into positions;
+/// `normals` are as many into the normals, or none. All must be in range. `face_normals` gets a row
+/// for each triangle; null for a mesh without normals. `work` is what polygon_work says. Returns
+/// what is wrong with the face, or null.
+const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
+                                  std::span<const std::uint32_t> normals,
+                                  const std::vector<glm::dvec3>& positions, std::int64_t work,
+                                  std::vector<Scene::Mesh::Face>& faces,
+                                  std::vector<Scene::Mesh::Face>* face_normals);
 
 /// What was dropped from a mesh.
 struct MeshLosses {

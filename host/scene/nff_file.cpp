@@ -420,7 +420,8 @@ class NffReader {
             }
         }
         const bool smooth = normals_.size() == corners_.size();
-        if (const auto* blemish = split_polygon(corners_, polygon_work_, parts_)) {
+        if (const auto* blemish =
+                split_polygon(corners_, polygon_work(mistakes_.text().size()), parts_)) {
             has_lost_ = true;
             mistakes_.note(blemish->remedy, offset, "{}", blemish->message);
         }
@@ -453,7 +454,6 @@ class NffReader {
     int material_ = -1;                             ///< -1: no fill yet
     std::vector<glm::dvec3> corners_, normals_;     ///< of the polygon at hand
     std::vector<std::array<std::uint32_t, 3>> parts_;
-    std::int64_t polygon_work_ = max_polygon_work;
     bool skips_words_ = false;
     bool has_lost_ = false;  ///< a shape, or a statement that may be one
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -34,12 +35,10 @@ constexpr std::string_view ignored_words[] = {
 constexpr std::string_view known_words[] = {"v", "vn", "vt", "f",      "g",     "o",
                                             "s", "l",  "p",  "usemtl", "mtllib"};
 
-/// What interrupts the triangles of a chunk: a face that is not a usual one (append_usual_face), or
-/// a usemtl, which has no corners.
-struct Event {
+/// A usemtl, and the number of triangles above it in its chunk.
+struct MaterialStart {
     std::size_t faces_before = 0;
-    std::vector<std::uint32_t> corners, normals;
-    ObjMaterials::Use material;  ///< of a face, the offset alone
+    ObjMaterials::Use material;
 };
 
 /// The number of vertices defined above a statement.
@@ -56,7 +55,7 @@ struct Chunk {
     Positions positions, normals;  ///< NaN where they cannot be read
     std::vector<Face> faces;
     std::vector<Face> face_normals;  ///< one for each face, if the file has normals
-    std::vector<Event> events;
+    std::vector<MaterialStart> materials;
     std::vector<ObjMaterials::Use> libraries;
 };
 
@@ -169,7 +168,7 @@ class FaceReader {
         if (word == "usemtl") {
             ObjMaterials::Use use = rest();
             use.name = printable(use.name);
-            chunk_.events.push_back({chunk_.faces.size(), {}, {}, std::move(use)});
+            chunk_.materials.push_back({chunk_.faces.size(), std::move(use)});
         } else if (word == "mtllib") {
             chunk_.libraries.push_back(rest());
         } else if (word == "l" || word == "p") {
@@ -242,8 +241,10 @@ class FaceReader {
         } else {
             if (!read_normals(offset)) normals_.clear();
             auto* const rows = all_normals_.empty() ? nullptr : &chunk_.face_normals;
-            if (append_usual_face(corners_, normals_, positions_, chunk_.faces, rows)) return;
-            chunk_.events.push_back({chunk_.faces.size(), corners_, normals_, {{}, offset}});
+            const std::int64_t work = polygon_work(notes_.text().size());
+            const auto* blemish =
+                append_face(corners_, normals_, positions_, work, chunk_.faces, rows);
+            if (blemish) notes_.note(blemish->remedy, offset, "{}", blemish->message);
         }
     }
 
@@ -298,11 +299,18 @@ class ObjReader {
         read_chunks();
         std::size_t triangles = 0;
         for (const Chunk& chunk : chunks_) triangles += chunk.faces.size();
-        builder_.mesh.faces.reserve(triangles);
-        if (!builder_.mesh.normals.empty()) builder_.mesh.face_normals.reserve(triangles);
+        mesh_.faces.reserve(triangles);
+        if (!mesh_.normals.empty()) mesh_.face_normals.reserve(triangles);
         for (Chunk& chunk : chunks_) add(chunk);
+        std::vector<int>& materials = mesh_.face_materials;
+        materials.resize(triangles, material_);
+        const bool same =
+            std::ranges::adjacent_find(materials, std::not_equal_to{}) == materials.end();
+        if (same) materials.resize(1, -1);
+        const auto is_flat = [](const Face& row) { return row[0] == Scene::Mesh::no_normal; };
+        if (std::ranges::all_of(mesh_.face_normals, is_flat)) mesh_.face_normals.clear();
         Model model;
-        model.mesh = builder_.take();
+        model.mesh = std::move(mesh_);
         if (model.mesh.faces.empty()) mistakes_.refuse_notes();
         if (open) {
             materials_.assign(model, open, mistakes_);
@@ -330,8 +338,8 @@ class ObjReader {
                              above.back().normals + chunk.normals.size()});
             all_readable = all_readable && chunk.notes.is_empty();
         }
-        Positions& positions = builder_.mesh.positions;
-        Positions& normals = builder_.mesh.normals;
+        Positions& positions = mesh_.positions;
+        Positions& normals = mesh_.normals;
         positions.resize(above.back().positions);
         normals.resize(above.back().normals);
         for_each_chunk([&](std::size_t i) {
@@ -355,25 +363,15 @@ class ObjReader {
     }
 
     void add(Chunk& chunk) {
-        Scene::Mesh& mesh = builder_.mesh;
-        std::size_t done = 0;
-        const auto add_up_to = [&](std::size_t end) {
-            const auto append = [&](const std::vector<Face>& part, std::vector<Face>& all) {
-                all.insert(all.end(), part.data() + done, part.data() + end);
-            };
-            append(chunk.faces, mesh.faces);
-            if (!mesh.normals.empty()) append(chunk.face_normals, mesh.face_normals);
-            done = end;
-        };
-        for (const Event& event : chunk.events) {
-            add_up_to(event.faces_before);
-            if (event.corners.empty()) {
-                builder_.use_material(materials_.use(event.material));
-            } else if (const auto* blemish = builder_.add_face(event.corners, event.normals)) {
-                mistakes_.note(blemish->remedy, event.material.offset, "{}", blemish->message);
-            }
+        for (const auto& [faces_before, material] : chunk.materials) {
+            mesh_.face_materials.resize(mesh_.faces.size() + faces_before, material_);
+            material_ = materials_.use(material);
         }
-        add_up_to(chunk.faces.size());
+        const auto append = [](const std::vector<Face>& part, std::vector<Face>& all) {
+            all.insert(all.end(), part.begin(), part.end());
+        };
+        append(chunk.faces, mesh_.faces);
+        append(chunk.face_normals, mesh_.face_normals);
         for (const ObjMaterials::Use& library : chunk.libraries) materials_.use_library(library);
         mistakes_.take_notes(chunk.notes);
         chunk = {Mistakes({}, {}), 0, 0, {}, {}, {}, {}, {}, {}};
@@ -382,7 +380,8 @@ class ObjReader {
     Mistakes mistakes_;
     ReadPace pace_;
     std::vector<Chunk> chunks_;
-    MeshBuilder builder_;
+    Scene::Mesh mesh_;
+    int material_ = -1;  ///< of subsequent faces
     ObjMaterials materials_;
 };
 

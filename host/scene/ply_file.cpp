@@ -313,7 +313,8 @@ class BodyReader {
    private:
     Model finish() {
         Model model;
-        model.mesh = builder_.take();
+        model.mesh = std::move(mesh_);
+        model.mesh.face_materials = {-1};
         if (model.mesh.faces.empty()) mistakes_.refuse_notes();
         for (glm::dvec3& p : model.mesh.positions) {
             if (!all_readable_ && std::isnan(p.x)) p = glm::dvec3(0);  // no face uses it
@@ -353,7 +354,7 @@ class BodyReader {
             return place < element.properties.size() && !element.properties[place].is_list();
         });
         const std::span<const std::size_t> wanted(places.data(), smooth ? 6 : 3);
-        Vectors& positions = builder_.mesh.positions;
+        Vectors& positions = mesh_.positions;
         const std::size_t bytes = element.count * element.row_bytes(0);
         if (!rows_.is_text() && element.list_count() == 0 && bytes <= rows_.left().size()) {
             rows_.start_element(element, wanted);
@@ -439,7 +440,7 @@ class BodyReader {
         }
         if (!rows_.is_text() && all_readable_ && read_face_block(element)) return;
         constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
-        builder_.mesh.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
+        mesh_.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
         read_rows(element, list, [&] {
             if (rows_.is_good()) add_face(rows_.values(list[0]));
         });
@@ -460,8 +461,8 @@ class BodyReader {
         const std::size_t stride = element.row_bytes(corners == 3 ? 3 : 4);
         if (data.size() / stride < element.count) return false;
         const bool usual = size_of(*list.count_type) == 1 && size_of(list.type) == 4;
-        const Vectors& p = builder_.mesh.positions;
-        std::vector<Scene::Mesh::Face>& faces = builder_.mesh.faces;
+        const Vectors& p = mesh_.positions;
+        std::vector<Scene::Mesh::Face>& faces = mesh_.faces;
         const std::size_t first = faces.size();
         faces.resize(first + element.count * (corners == 3 ? 1 : 2));
         const auto read_row = [&](std::size_t i) {
@@ -492,14 +493,15 @@ class BodyReader {
         for (const double index : indices) {
             if (!take_corner(index, bad_ply_face, 1)) return;
         }
-        if (const auto* blemish = builder_.add_face(corners_, {})) {
-            rows_.note(blemish->remedy, blemish->message);
-        }
+        const std::int64_t work = polygon_work(mistakes_.text().size());
+        const auto* blemish =
+            append_face(corners_, {}, mesh_.positions, work, mesh_.faces, nullptr);
+        if (blemish) rows_.note(blemish->remedy, blemish->message);
     }
 
     /// Appends a vertex to corners_ if it exists and can be read; notes it otherwise.
     bool take_corner(double index, const Remedy& remedy, std::size_t count) {
-        const Vectors& all = builder_.mesh.positions;
+        const Vectors& all = mesh_.positions;
         if (!(index >= 0 && index < static_cast<double>(all.size())) ||
             index != std::floor(index)) {
             rows_.note(
@@ -536,7 +538,7 @@ class BodyReader {
             const auto last = std::span(corners_).last(3);
             const auto [a, b, c] = std::array{last[0], last[1], last[2]};
             if (a == b || b == c || c == a) continue;
-            builder_.add_face(seen % 2 == 0 ? std::array{b, a, c} : std::array{a, b, c}, {});
+            mesh_.faces.push_back(seen % 2 == 0 ? std::array{b, a, c} : std::array{a, b, c});
         }
     }
 
@@ -544,7 +546,7 @@ class BodyReader {
     Rows rows_;
     Mistakes& mistakes_;
     ReadPace pace_;
-    MeshBuilder builder_;
+    Scene::Mesh mesh_;
     Vectors normals_;                     ///< of the vertices, whose numbers they have
     std::vector<std::uint32_t> corners_;  ///< of the face or strip being read
     bool all_readable_ = true;            ///< no position is NaN

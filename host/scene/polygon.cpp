@@ -75,7 +75,7 @@ std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners, glm::dvec
 /// positive area, so that the triangles add up to the polygon and none lies outside it.
 class EarClipper {
    public:
-    EarClipper(std::vector<glm::dvec2> points, std::int64_t& work,
+    EarClipper(std::vector<glm::dvec2> points, std::int64_t work,
                std::vector<std::array<std::uint32_t, 3>>& triangles)
         : points_(std::move(points)),
           previous_(points_.size()),
@@ -220,7 +220,7 @@ class EarClipper {
     bool clip_round(bool strict, bool skip) {
         bool any = false;
         Index corner = start_;
-        work_ -= count_;
+        work_ -= count_ + static_cast<std::int64_t>(obstacles_.size());
         for (Index left = count_; left > 0 && count_ > 2 && work_ >= 0; --left) {
             const Index following = next_[corner];
             if (turn(corner) > 0 && is_ear(corner, strict)) {
@@ -260,13 +260,15 @@ class EarClipper {
     }
 
     bool is_ear(Index corner, bool strict) {
-        const auto [low, high] = std::minmax(
-            {points_[previous_[corner]].x, points_[corner].x, points_[next_[corner]].x});
-        auto other = std::lower_bound(obstacles_.begin(), obstacles_.end(), low,
+        const glm::dvec2 a = points_[previous_[corner]], b = points_[corner];
+        const glm::dvec2 c = points_[next_[corner]];
+        const glm::dvec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+        auto other = std::lower_bound(obstacles_.begin(), obstacles_.end(), low.x,
                                       [&](Index i, double x) { return points_[i].x < x; });
-        for (; other != obstacles_.end() && points_[*other].x <= high; ++other) {
+        for (; other != obstacles_.end() && points_[*other].x <= high.x; ++other) {
             --work_;
-            if (blocks(*other, corner, strict)) return false;
+            const double y = points_[*other].y;
+            if (y >= low.y && y <= high.y && blocks(*other, corner, strict)) return false;
         }
         return true;
     }
@@ -300,10 +302,6 @@ class EarClipper {
     bool inside(glm::dvec2 point, Index corner, bool strict) const {
         const glm::dvec2 a = points_[previous_[corner]], b = points_[corner];
         const glm::dvec2 c = points_[next_[corner]];
-        const glm::dvec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
-        if (point.x < low.x || point.x > high.x || point.y < low.y || point.y > high.y) {
-            return false;
-        }
         const int least = strict ? 0 : 1;
         return orientation(a, b, point) >= least && orientation(b, c, point) >= least &&
                orientation(c, a, point) >= least;
@@ -315,7 +313,7 @@ class EarClipper {
     std::vector<char> repeated_;    ///< shares its place with another corner
     std::vector<Index> obstacles_;  ///< corners that may stand in an ear's way
     Index start_ = 0, count_ = 0;   ///< a corner that is left, and how many are
-    std::int64_t& work_;
+    std::int64_t work_;             ///< comparisons left
     std::vector<std::array<std::uint32_t, 3>>& triangles_;
 };
 
@@ -326,7 +324,7 @@ constexpr PolygonBlemish not_simple{
     "the polygon is self-intersecting or too complex and may look wrong; split it"};
 
 /// Returns whether the triangles are exact.
-bool triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
+bool triangulate(std::span<const glm::dvec3> corners, std::int64_t work,
                  std::vector<std::array<std::uint32_t, 3>>& triangles) {
     if (corners.size() == 3) triangles.push_back({0, 1, 2});
     if (corners.size() > 3 && !on_one_line(corners)) {
@@ -342,13 +340,10 @@ bool triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
 
 }  // namespace
 
-const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::int64_t& work,
+const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::int64_t work,
                                     std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    constexpr std::int64_t work_of_a_corner = 64;
-    work = std::min(max_polygon_work,
-                    std::max<std::int64_t>(work, 0) +
-                        work_of_a_corner * static_cast<std::int64_t>(corners.size()));
     triangles.clear();
+    work *= static_cast<std::int64_t>(corners.size());
     if (triangulate(corners, work, triangles)) return triangles.empty() ? &no_area : nullptr;
     triangles.clear();
     for (std::uint32_t i = 2; i < corners.size(); ++i) triangles.push_back({0, i - 1, i});

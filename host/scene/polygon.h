@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -11,8 +12,11 @@
 
 namespace rt {
 
-/// Work budget, in comparisons, for splitting the polygons of a file, to bound the time.
-inline constexpr std::int64_t max_polygon_work = std::int64_t{1} << 28;
+/// How many comparisons splitting a polygon may take for each of its corners, in a file of so many
+/// bytes: this bounds the time for all of them, and lets a small file be intricate.
+constexpr std::int64_t polygon_work(std::size_t file_bytes) {
+    return 256 + (std::int64_t{1} << 32) / (static_cast<std::int64_t>(file_bytes) + 1);
+}
 
 /// What is wrong with a polygon, for Mistakes::note.
 struct PolygonBlemish {
@@ -25,10 +29,9 @@ struct PolygonBlemish {
 /// a slit joins a hole to the outside. No triangle is of zero_area. Replaces `triangles`.
 ///
 /// Returns what is wrong, or null: a polygon whose corners lie on one line has no triangles; one
-/// whose edges cross or whose boundary folds over is a fan from its first corner, as is one for
-/// which the budget is too small. `work` is what is left of it for the file. Each corner adds to
-/// it, so that many small faces cannot exhaust it.
-const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::int64_t& work,
+/// whose edges cross or whose boundary folds over is a fan from its first corner, as is one that
+/// takes more than `work` for each corner.
+const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::int64_t work,
                                     std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 }  // namespace rt
