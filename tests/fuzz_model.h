@@ -10,6 +10,7 @@
 #include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/threads_renderer.h"
+#include "host/scene/mesh.h"
 #include "host/scene/model.h"
 #include "tests/whole_film.h"
 
@@ -82,7 +83,9 @@ void try_model(Read read) {
         is_read = true;
         const Affine mirrored = make_affine({-2, 1, 3}, {10, 20, 30}, {1, 2, 3});
         for (const Affine& transform : {Affine{}, mirrored}) {
-            const Scene scene = make_model_scene(finish_model(model, "fuzz", transform), "fuzz");
+            Model finished = model;
+            finish_mesh(finished.mesh, transform, "fuzz", finished.notes);
+            const Scene scene = make_model_scene(std::move(finished), "fuzz");
             check_mesh(scene.meshes.at(0), scene.materials.size());
             render(scene);
         }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 #include <vector>
 
 #include "host/scene/geometry.h"
@@ -60,17 +61,24 @@ glm::dvec3 normal_of(const Scene::Mesh& mesh, std::size_t face) {
         glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
 }
 
+/// Finishes the mesh; returns the notes.
+std::vector<std::string> finish(Scene::Mesh& mesh, const Affine& transform) {
+    std::vector<std::string> notes;
+    finish_mesh(mesh, transform, "m.obj", notes);
+    return notes;
+}
+
 TEST(FinishMesh, NormalsStayAtRightAnglesToTheirFaces) {
     for (const glm::dvec3 scale : {glm::dvec3(1, 1, 1), glm::dvec3(2, 1, 1), glm::dvec3(3, 5, 7),
                                    glm::dvec3(1e-20, 1e-20, 1e-20), glm::dvec3(-1, 1, 1),
                                    glm::dvec3(-2, -3, -4), glm::dvec3(-1, -1, 5)}) {
         Scene::Mesh mesh = slanted();
-        finish_mesh(mesh, make_affine(scale, {10, 20, 30}, {0, 0, 0}));
+        finish(mesh, make_affine(scale, {10, 20, 30}, {0, 0, 0}));
         expect_near(mesh.normals[0], normal_of(mesh, 0));
         EXPECT_NEAR(glm::length(mesh.normals[0]), 1, 1e-15);
     }
     Scene::Mesh mesh = slanted();
-    finish_mesh(mesh, make_affine({2, 1, 1}, {0, 0, 0}, {0, 0, 0}));
+    finish(mesh, make_affine({2, 1, 1}, {0, 0, 0}, {0, 0, 0}));
     expect_near(mesh.normals[0], glm::dvec3(1, 2, 0) / std::sqrt(5.0));
 }
 
@@ -78,7 +86,7 @@ TEST(FinishMesh, MirroringTurnsFacesRound) {
     Scene::Mesh mesh = slanted();
     mesh.normals = {{1, 1, 0}, {1, 1, 0}, {1, 1, 0}};
     mesh.face_normals = {{0, 1, 2}};
-    finish_mesh(mesh, make_affine({1, 1, -1}, {0, 0, 0}, {0, 0, 0}));
+    finish(mesh, make_affine({1, 1, -1}, {0, 0, 0}, {0, 0, 0}));
     EXPECT_EQ(mesh.faces, (Faces{{0, 2, 1}}));
     EXPECT_EQ(mesh.face_normals, (Faces{{0, 2, 1}}));
 }
@@ -89,9 +97,9 @@ TEST(FinishMesh, TrianglesWithoutAreaGo) {
     mesh.face_normals = mesh.faces;
     mesh.normals = {{1, 1, 0}, {0, 0, 0}, {0, 0, 1}};
     mesh.face_materials = {4, 5, 6};
-    const MeshLosses losses = finish_mesh(mesh, {});
-    EXPECT_EQ(losses.zero_areas, 2u);
-    EXPECT_EQ(losses.flat_faces, 1u);
+    EXPECT_EQ(finish(mesh, {}),
+              (std::vector<std::string>{"m.obj: ignored 2 zero-area triangles",
+                                        "m.obj: 1 face is flat, as a vertex normal has length 0"}));
     EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}}));
     EXPECT_EQ(mesh.face_normals, (Faces{{none, none, none}}));
     EXPECT_EQ(mesh.face_materials, std::vector<int>{5});

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {
@@ -135,22 +139,39 @@ const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
     return blemish;
 }
 
-MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform) {
-    MeshLosses losses;
-    if (transform != Affine{}) losses.too_far = !move_positions(mesh, transform);
+void finish_mesh(Scene::Mesh& mesh, const Affine& transform, const std::string& path,
+                 std::vector<std::string>& notes) {
+    if (transform != Affine{} && !move_positions(mesh, transform)) {
+        throw Error(ExitCode::input, path +
+                                         ": a vertex exceeds 1e30 after the transform; "
+                                         "make the transform smaller");
+    }
     const auto matrix = normal_matrix(transform.linear);
     const bool any_zero = turn_normals(mesh.normals, matrix.value_or(glm::dmat3(1)));
-    losses.zero_areas = drop_zero_areas(mesh);
+    const std::size_t zero_areas = drop_zero_areas(mesh);
+    if (mesh.faces.empty()) {
+        throw Error(ExitCode::input, path +
+                                         ": no face has any area, so there is nothing to draw; "
+                                         "use a model with faces");
+    }
+    if (zero_areas > 0) {
+        notes.push_back(
+            fmt::format("{}: ignored {}", path, counted(zero_areas, "zero-area triangle")));
+    }
+    std::size_t flat_faces = 0;
     for (Face& normals : mesh.face_normals) {
         if (!any_zero || !has_zero_normal(mesh, normals)) continue;
         normals = flat_face;
-        ++losses.flat_faces;
+        ++flat_faces;
+    }
+    if (flat_faces > 0) {
+        notes.push_back(fmt::format("{}: {} flat, as a vertex normal has length 0", path,
+                                    counted(flat_faces, "face is", "faces are")));
     }
     if (mirrors(transform.linear)) {
         turn_round(mesh.faces);
         turn_round(mesh.face_normals);
     }
-    return losses;
 }
 
 Box bounding_box(const Scene::Mesh& mesh) {

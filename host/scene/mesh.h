@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/scene/geometry.h"
@@ -36,17 +37,12 @@ const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
                                   std::vector<Scene::Mesh::Face>& faces,
                                   std::vector<Scene::Mesh::Face>* face_normals);
 
-/// What was dropped from a mesh.
-struct MeshLosses {
-    std::size_t zero_areas = 0;  ///< triangles without area
-    std::size_t flat_faces = 0;  ///< made flat, since a vertex normal has length 0
-    bool too_far = false;        ///< a face's vertex ends up beyond max_scene_number
-};
-
 /// Transforms a mesh into the scene. Normals become unit length; triangles without area are
-/// removed; a mirroring transform reverses the faces, so that fronts stay fronts. The transform
-/// must not be singular.
-MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform);
+/// removed and faces with a normal of length 0 made flat, with a note; a mirroring transform
+/// reverses the faces, so that fronts stay fronts. The transform must not be singular. Throws Error
+/// (ExitCode::input) if a face's vertex ends up beyond max_scene_number, or if no face is left.
+void finish_mesh(Scene::Mesh& mesh, const Affine& transform, const std::string& path,
+                 std::vector<std::string>& notes);
 
 /// The box of all faces; vertices of none do not count.
 Box bounding_box(const Scene::Mesh& mesh);

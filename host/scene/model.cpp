@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/model.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -88,31 +86,10 @@ std::vector<Scene::Light> default_lights(const BoundingSphere& sphere) {
 bool is_obj_name(const std::string& path) { return lower_extension(path) == ".obj"; }
 bool is_ply_name(const std::string& path) { return lower_extension(path) == ".ply"; }
 
-Model finish_model(Model model, const std::string& path, const Affine& transform) {
-    const MeshLosses losses = finish_mesh(model.mesh, transform);
-    if (losses.too_far) {
-        throw Error(ExitCode::input, path +
-                                         ": a vertex exceeds 1e30 after the transform; "
-                                         "make the transform smaller");
-    }
-    if (model.mesh.faces.empty()) {
-        throw Error(ExitCode::input, path +
-                                         ": no face has any area, so there is nothing to draw; "
-                                         "use a model with faces");
-    }
-    if (losses.zero_areas > 0) {
-        model.notes.push_back(
-            fmt::format("{}: ignored {}", path, counted(losses.zero_areas, "zero-area triangle")));
-    }
-    if (losses.flat_faces > 0) {
-        model.notes.push_back(fmt::format("{}: {} flat, as a vertex normal has length 0", path,
-                                          counted(losses.flat_faces, "face is", "faces are")));
-    }
-    return model;
-}
-
 Model load_model(const FileDescriptor& file, const std::string& path, const ModelOptions& options) {
-    return finish_model(parse_model(file, path, options), printable(path), options.transform);
+    Model model = parse_model(file, path, options);
+    finish_mesh(model.mesh, options.transform, printable(path), model.notes);
+    return model;
 }
 
 Scene make_model_scene(Model model, const std::string& path) {

@@ -50,9 +50,6 @@ struct ModelOptions {
 /// draw, ExitCode::limit for one that is too large.
 Model load_model(const FileDescriptor& file, const std::string& path, const ModelOptions& options);
 
-/// The last step of load_model, for a parsed model.
-Model finish_model(Model model, const std::string& path, const Affine& transform);
-
 /// A scene of one model: centered, seen from the right, the front and slightly above, on a light
 /// background with two lights (docs/scene-format.md).
 Scene load_model_scene(const std::string& path);
