@@ -33,24 +33,29 @@ constexpr Remedy number_ignored{"number ignored", "numbers ignored"};
 constexpr Remedy value_replaced{"value replaced", "values replaced"};
 constexpr Remedy made_flat{"polygon made flat", "polygons made flat"};
 
-struct Usage {
+/// A word, and how many numbers follow it at least.
+struct Statement {
     std::string_view word, usage;
+    std::size_t numbers;
+    const Remedy* remedy;  ///< if they cannot be read; null: an error
 };
 
-constexpr Usage entities[] = {{"v", "v, then from, at, up and angle"},
-                              {"b", "b red green blue"},
-                              {"l", "l x y z, with red green blue or without"},
-                              {"f", "f red green blue Kd Ks Shine T ior"},
-                              {"c", "c base x y z radius apex x y z radius (numbers only)"},
-                              {"s", "s x y z radius"},
-                              {"p", "p count, then count times x y z"},
-                              {"pp", "pp count, then count times x y z nx ny nz"}};
-constexpr Usage view_parts[] = {{"from", "from x y z"},
-                                {"at", "at x y z"},
-                                {"up", "up x y z"},
-                                {"angle", "angle degrees"},
-                                {"hither", "hither distance"},
-                                {"resolution", "resolution width height"}};
+/// The view and its parts, of which the first four are required; then the others.
+constexpr Statement statements[] = {
+    {"v", "v, then from, at, up and angle", 0, nullptr},
+    {"from", "from x y z", 3, nullptr},
+    {"at", "at x y z", 3, nullptr},
+    {"up", "up x y z", 3, nullptr},
+    {"angle", "angle degrees", 1, nullptr},
+    {"hither", "hither distance", 1, nullptr},
+    {"resolution", "resolution width height", 2, nullptr},
+    {"b", "b red green blue", 3, &statement_ignored},
+    {"l", "l x y z, with red green blue or without", 3, &statement_ignored},
+    {"f", "f red green blue Kd Ks Shine T ior", 8, &value_replaced},
+    {"c", "c base x y z radius apex x y z radius (numbers only)", 8, &left_out},
+    {"s", "s x y z radius", 4, &left_out},
+    {"p", "p count, then count times x y z", 1, &left_out},
+    {"pp", "pp count, then count times x y z nx ny nz", 1, &left_out}};
 
 /// Lines have no meaning: numbers and words are separated by blanks and line ends. A shape that
 /// cannot be read is left out with a note; only the view must be right.
@@ -64,14 +69,14 @@ class NffReader {
 
     Scene read() {
         while (scanner_.find_word()) {
-            read_entity() ? skip_numbers() : skip_to_entity();
+            read_statement() ? skip_numbers() : skip_to_statement();
             if (shape_count() > max_nff_primitives) {
                 throw Error(ExitCode::limit,
                             fmt::format("{}: more than {} primitives; split the scene",
                                         mistakes_.file_name(), max_nff_primitives));
             }
         }
-        if (!view_) mistakes_.add(0, "the file has no view; add v with from, at, up and angle");
+        check_view();
         mistakes_.throw_if_any();
         if (shape_count() == 0 && has_lost_) mistakes_.refuse_notes();
         set_light();
@@ -80,35 +85,37 @@ class NffReader {
     }
 
    private:
+    static constexpr std::size_t at = 2, up = 3, background = 7;  // places among the statements
+
     std::size_t shape_count() const {
         return scene_.spheres.size() + scene_.cones.size() + scene_.triangles.size();
     }
 
-    bool read_entity() {
-        const std::size_t offset = scanner_.offset();
-        const std::string_view word = scanner_.word();
-        const auto known = std::ranges::find(entities, word, &Usage::word);
-        skips_words_ = word == "v" || known == std::end(entities);
-        if (known == std::end(entities)) return note_unknown(word, offset);
-        usage_ = known->usage;
-        remedy_ = word == "v"                  ? nullptr
-                  : word == "b" || word == "l" ? &statement_ignored
-                                               : &left_out;
-        if (word == "v") return read_view(offset);
-        if (word == "b") return read_background(offset);
-        if (word == "l") return read_light();
-        if (word == "f") return read_fill();
-        if (word == "c") return read_cone(offset);
-        if (word == "s") return read_sphere();
-        return read_polygon(word == "pp");
+    /// The statement that a word begins; null if there is none. A view's parts follow each other.
+    const Statement* find(std::string_view word) const {
+        const Statement* const found = std::ranges::find(statements, word, &Statement::word);
+        const bool is_part = found > statements && found < statements + background;
+        return found == std::end(statements) || (is_part && !in_view_) ? nullptr : found;
     }
 
-    bool note_unknown(std::string_view word, std::size_t offset) {
+    bool read_statement() {
+        offset_ = scanner_.offset();
+        const std::string_view word = scanner_.word();
+        statement_ = find(word);
+        in_view_ = statement_ && statement_ < statements + background;
+        if (!statement_) return note_unknown(word);
+        note_repeated();
+        numbers_.clear();
+        return (read_numbers(statement_->numbers) || word == "f") && use_numbers(word);
+    }
+
+    bool note_unknown(std::string_view word) {
         has_lost_ = true;
-        if (word == "nff" && !view_) {
-            mistakes_.add(offset, "unknown entity 'nff'; this is Sense8's NFF, a different format");
+        if (word == "nff" && !places_[0]) {
+            mistakes_.add(offset_,
+                          "unknown entity 'nff'; this is Sense8's NFF, a different format");
         } else {
-            mistakes_.note(statement_ignored, offset,
+            mistakes_.note(statement_ignored, offset_,
                            "unknown entity {}; NFF has v, b, l, f, c, s, p and pp; "
                            "extensions are not supported",
                            in_quotes(word));
@@ -116,15 +123,22 @@ class NffReader {
         return false;
     }
 
-    /// Notes what is wrong with the entity at hand, or in a view adds it to the errors.
-    void report(std::size_t offset, std::string message) {
-        has_lost_ = has_lost_ || remedy_ == &left_out;
-        mistakes_.report(remedy_, offset, std::move(message));
+    /// Of the view, each of its parts and the background, the last counts.
+    void note_repeated() {
+        const auto which = static_cast<std::size_t>(statement_ - statements);
+        if (which > background) return;
+        if (places_[which]) {
+            mistakes_.note(statement_ignored, offset_,
+                           "a second '{}', which counts; keep one of them", statement_->word);
+        }
+        if (which == 0) std::fill_n(places_.begin(), background, std::nullopt);
+        places_[which] = offset_;
     }
 
-    std::size_t next_offset() {
-        scanner_.find_word();
-        return scanner_.offset();
+    /// Notes what is wrong with the statement at hand, or in a view adds it to the errors.
+    void report(std::size_t offset, std::string message) {
+        has_lost_ = has_lost_ || statement_->remedy == &left_out;
+        mistakes_.report(statement_->remedy, offset, std::move(message));
     }
 
     /// Whether the next word is a number, or looks meant as one.
@@ -138,60 +152,60 @@ class NffReader {
         return word == "nan" || word == "inf";
     }
 
-    std::optional<double> read_next(std::string_view name) {
-        if (number_follows()) {
-            const auto number = scan_number(scanner_, name, mistakes_, remedy_);
-            has_lost_ = has_lost_ || (!number && remedy_ == &left_out);
-            return number;
+    /// Reads so many more. Reports one that is missing or wrong; a wrong one of a fill is the
+    /// default's.
+    bool read_numbers(std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!number_follows()) {
+                const std::string_view word = LineScanner(scanner_).word();
+                report(scanner_.offset(),
+                       fmt::format("expected a number, found {}; write {}",
+                                   word.empty() ? "the end" : in_quotes(word), statement_->usage));
+                return false;
+            }
+            const std::size_t offset = scanner_.offset();
+            const auto number = scan_number(scanner_, "a number", mistakes_, statement_->remedy);
+            const bool is_fill = statement_->remedy == &value_replaced;
+            has_lost_ = has_lost_ || (!number && statement_->remedy == &left_out);
+            if (!number && !is_fill) return false;
+            numbers_.push_back({number ? *number : default_fill[i], offset});
         }
-        const std::string_view word = LineScanner(scanner_).word();
-        report(scanner_.offset(),
-               word.empty()
-                   ? fmt::format("the file ends before {}; write {}", name, usage_)
-                   : fmt::format("expected {}, found {}; write {}", name, in_quotes(word), usage_));
-        return std::nullopt;
+        return true;
     }
 
-    std::optional<glm::dvec3> read_vec3(std::string_view name) {
-        const auto x = read_next(name);
-        const auto y = x ? read_next(name) : std::nullopt;
-        const auto z = y ? read_next(name) : std::nullopt;
-        return z ? std::optional(glm::dvec3(*x, *y, *z)) : std::nullopt;
+    glm::dvec3 vec3(std::size_t first) const {
+        return {numbers_[first].value, numbers_[first + 1].value, numbers_[first + 2].value};
     }
 
-    /// A negative channel is 0.
-    std::optional<glm::dvec3> read_color(std::string_view name) {
-        const std::size_t offset = next_offset();
-        auto color = read_vec3(name);
-        for (int i = 0; color && i < 3; ++i) {
-            (*color)[i] = at_least_0((*color)[i], name, offset);
-        }
-        return color;
-    }
-
-    double at_least_0(double number, std::string_view name, std::size_t offset) {
+    double at_least_0(double number, std::size_t offset) {
         if (number >= 0) return number;
-        mistakes_.note(value_replaced, offset, "{} is {}; write 0 or more", name, number);
+        mistakes_.note(value_replaced, offset, "a number is {}; write 0 or more", number);
         return 0;
     }
 
-    double at_most(double number, std::string_view name, std::size_t offset) {
+    /// A negative channel is 0.
+    glm::dvec3 color(std::size_t first) {
+        glm::dvec3 color = vec3(first);
+        for (int i = 0; i < 3; ++i) color[i] = at_least_0(color[i], numbers_[first].offset);
+        return color;
+    }
+
+    /// The i-th number may be missing.
+    double at_most(double number, std::string_view name, std::size_t i) {
         if (number <= max_reflectance) return number;
+        const std::size_t offset = numbers_[std::min(i, numbers_.size() - 1)].offset;
         mistakes_.note(value_replaced, offset, "{} is {}; write {} at most", name, number,
                        max_reflectance);
         return max_reflectance;
     }
 
-    std::optional<int> read_integer(std::string_view name, int low, int high) {
-        const std::size_t offset = next_offset();
-        const auto number = read_next(name);
-        if (!number) return std::nullopt;
-        if (*number >= low && *number <= high && *number == std::floor(*number)) {
-            return static_cast<int>(*number);
-        }
-        report(offset, fmt::format("{} is {}; write a whole number from {} to {}", name, *number,
-                                   low, high));
-        return std::nullopt;
+    /// Whether it is a whole number in the range; else reports it.
+    bool is_whole(std::size_t i, std::string_view name, int low, int high) {
+        const double number = numbers_[i].value;
+        if (number >= low && number <= high && number == std::floor(number)) return true;
+        report(numbers_[i].offset, fmt::format("{} is {}; write a whole number from {} to {}", name,
+                                               number, low, high));
+        return false;
     }
 
     void skip_numbers() {
@@ -201,6 +215,7 @@ class NffReader {
                            "{} is one number too many, or an entity's letter is "
                            "missing",
                            in_quotes(scanner_.word()));
+            in_view_ = false;
         }
     }
 
@@ -210,128 +225,95 @@ class NffReader {
         return last == before.npos || before[last] == '\n' || before[last] == '\r';
     }
 
-    /// Error recovery: skips to a line that begins with an entity, or at least with a word. Lines
-    /// of a view or an extension may begin with words of their own.
-    void skip_to_entity() {
+    /// Error recovery: skips to a line that begins with a statement. Those of an extension may
+    /// begin with words of their own.
+    void skip_to_statement() {
         if (scanner_.find_word() && !at_line_start()) scanner_.next_line();
-        for (; scanner_.find_word(); scanner_.next_line()) {
-            const std::string_view word = LineScanner(scanner_).word();
-            const bool is_entity = std::ranges::count(entities, word, &Usage::word) > 0;
-            if (!number_follows() && (!skips_words_ || is_entity)) return;
-        }
+        while (scanner_.find_word() && !find(LineScanner(scanner_).word())) scanner_.next_line();
     }
 
-    /// Of an entity that may appear only once, the last counts.
-    void note_repeated(std::string_view word, std::size_t offset,
-                       std::optional<std::size_t>& last) {
-        if (last) {
-            mistakes_.note(statement_ignored, offset,
-                           "a second '{}', which counts; keep one of them", word);
-        }
-        last = offset;
+    bool use_numbers(std::string_view word) {
+        Scene::Camera& camera = scene_.camera;
+        if (word == "from") camera.from = vec3(0);
+        if (word == "at") camera.at = vec3(0);
+        if (word == "up") camera.up = vec3(0);
+        if (word == "angle") read_angle();
+        if (word == "resolution") return read_resolution();
+        if (word == "b") scene_.background = color(0);
+        if (word == "l") read_light();
+        if (word == "f") read_fill();
+        if (word == "c") read_cone();
+        if (word == "s") read_sphere();
+        if (word == "p" || word == "pp") return read_polygon(word == "pp");
+        return true;
     }
 
-    bool read_view(std::size_t offset) {
-        note_repeated("v", offset, view_);
-        std::array<std::optional<std::size_t>, std::size(view_parts)> places;
-        const std::size_t before = mistakes_.count();
-        while (scanner_.find_word()) {
-            const auto part =
-                std::ranges::find(view_parts, LineScanner(scanner_).word(), &Usage::word);
-            if (part == std::end(view_parts)) break;
-            note_repeated(part->word, scanner_.offset(), places[part - std::begin(view_parts)]);
-            scanner_.word();
-            usage_ = part->usage;
-            if (!read_view_part(part->word)) return false;
+    void read_angle() {
+        const double degrees = numbers_[0].value;
+        if (!(degrees > 0 && degrees < 180)) {
+            report(numbers_[0].offset,
+                   fmt::format("angle is {}; write an angle between 0 and 180", degrees));
         }
-        for (std::size_t i = 0; i < 4; ++i) {  // the others are optional
-            if (places[i]) continue;
-            mistakes_.add(offset, "the view has no '{}'; add {}", view_parts[i].word,
-                          view_parts[i].usage);
+        scene_.camera.field_of_view = {Scene::FieldOfView::Fixed::vertical, degrees};
+    }
+
+    bool read_resolution() {
+        for (const std::size_t i : {0, 1}) {
+            if (!is_whole(i, "resolution", 1, max_image_side)) return false;
         }
-        if (mistakes_.count() != before) return true;
+        scene_.width = static_cast<int>(numbers_[0].value);
+        scene_.height = static_cast<int>(numbers_[1].value);
+        const auto pixels = static_cast<std::int64_t>(scene_.width) * scene_.height;
+        if (pixels > max_image_pixels) {
+            report(numbers_[0].offset, fmt::format("the picture has {} pixels; make it {} at most",
+                                                   pixels, max_image_pixels));
+        }
+        return true;
+    }
+
+    void check_view() {
+        if (!places_[0])
+            mistakes_.add(0, "the file has no view; add v with from, at, up and angle");
+        if (mistakes_.count() > 0) return;
+        for (std::size_t i = 1; i <= 4; ++i) {
+            if (places_[i]) continue;
+            mistakes_.add(*places_[0], "the view has no '{}'; add {}", statements[i].word,
+                          statements[i].usage);
+        }
+        if (mistakes_.count() > 0) return;
         const Scene::Camera& camera = scene_.camera;
         if (const auto mistake = find_axes_mistake(camera.from, camera.at, camera.up)) {
-            mistakes_.add(*places[mistake->is_up ? 2 : 1], "{}", mistake->message);
+            mistakes_.add(*places_[mistake->is_up ? up : at], "{}", mistake->message);
         }
-        return true;
     }
 
-    bool read_view_part(std::string_view part) {
-        if (part == "from") return assign(read_vec3(part), scene_.camera.from);
-        if (part == "at") return assign(read_vec3(part), scene_.camera.at);
-        if (part == "up") return assign(read_vec3(part), scene_.camera.up);
-        if (part == "hither") return read_next(part).has_value();
-        const std::size_t offset = next_offset();
-        if (part == "angle") {
-            const auto degrees = read_next(part);
-            if (degrees && !(*degrees > 0 && *degrees < 180)) {
-                mistakes_.add(offset, "angle is {}; write an angle between 0 and 180", *degrees);
-            }
-            scene_.camera.field_of_view = {Scene::FieldOfView::Fixed::vertical,
-                                           degrees.value_or(0)};
-            return degrees.has_value();
-        }
-        const auto width = read_integer(part, 1, max_image_side);
-        const auto height = width ? read_integer(part, 1, max_image_side) : std::nullopt;
-        if (!height) return false;
-        scene_.width = *width;
-        scene_.height = *height;
-        const auto pixels = static_cast<std::int64_t>(*width) * *height;
-        if (pixels > max_image_pixels) {
-            mistakes_.add(offset, "the picture has {} pixels; make it {} at most", pixels,
-                          max_image_pixels);
-        }
-        return true;
-    }
-
-    static bool assign(const std::optional<glm::dvec3>& value, glm::dvec3& target) {
-        if (value) target = *value;
-        return value.has_value();
-    }
-
-    bool read_background(std::size_t offset) {
-        note_repeated("b", offset, background_);
-        return assign(read_color("background"), scene_.background);
-    }
-
-    bool read_light() {
-        const auto position = read_vec3("light position");
-        if (!position) return false;
+    void read_light() {
         Scene::Light light;
-        light.position = *position;
-        light.has_own_intensity =
-            number_follows() && assign(read_color("light color"), light.intensity);
+        light.position = vec3(0);
+        light.has_own_intensity = number_follows() && read_numbers(3);
+        if (light.has_own_intensity) light.intensity = color(3);
         scene_.lights.push_back(light);
-        return true;
     }
 
-    /// Numbers that are missing or wrong are those of the default.
-    bool read_fill() {
-        constexpr const char* names[] = {"red", "green", "blue", "Kd", "Ks", "Shine", "T", "ior"};
-        remedy_ = &value_replaced;
+    /// Numbers that are missing are those of the default.
+    void read_fill() {
         Fill fill = default_fill;
-        std::array<std::size_t, 8> places{};
-        for (std::size_t i = 0; i < fill.size(); ++i) {
-            places[i] = next_offset();
-            const bool there = number_follows();
-            const auto number = read_next(names[i]);
-            if (!there) break;
-            if (number) fill[i] = at_least_0(*number, names[i], places[i]);
+        for (std::size_t i = 0; i < numbers_.size(); ++i) {
+            fill[i] = at_least_0(numbers_[i].value, numbers_[i].offset);
         }
         auto& [red, green, blue, kd, ks, shine, t, ior] = fill;
         if (t > 0 && ior == 0) {
-            report(places[7], "ior is 0 where T is not; write an index above 0, 1 to go straight");
+            report(numbers_[7].offset,
+                   "ior is 0 where T is not; write an index above 0, 1 to go straight");
             ior = 1;
         }
         const double brightest = std::max({red, green, blue});
         if (brightest * kd > max_reflectance) {
-            kd = at_most(brightest * kd, "Kd times the color", places[3]) / brightest;
+            kd = at_most(brightest * kd, "Kd times the color", 3) / brightest;
         }
-        ks = at_most(ks, "Ks", places[4]);
-        t = at_most(t, "T", places[6]);
+        ks = at_most(ks, "Ks", 4);
+        t = at_most(t, "T", 6);
         use(fill);
-        return true;
     }
 
     /// red green blue Kd Ks Shine T ior
@@ -361,61 +343,49 @@ class NffReader {
         return material_;
     }
 
-    bool read_sphere() {
-        const auto center = read_vec3("center");
-        const std::size_t offset = next_offset();
-        const auto radius = center ? read_next("radius") : std::nullopt;
-        if (!radius) return false;
-        if (*radius == 0) {
-            report(offset, "radius is 0; write a larger one");
+    void read_sphere() {
+        const double radius = std::abs(numbers_[3].value);
+        if (radius == 0) {
+            report(numbers_[3].offset, "radius is 0; write a larger one");
         } else {
-            scene_.spheres.push_back({*center, std::abs(*radius), material()});
+            scene_.spheres.push_back({vec3(0), radius, material()});
         }
-        return true;
     }
 
-    bool read_cone(std::size_t offset) {
-        const auto base = read_vec3("base");
-        const auto base_radius = base ? read_next("base radius") : std::nullopt;
-        const auto apex = base_radius ? read_vec3("apex") : std::nullopt;
-        const auto apex_radius = apex ? read_next("apex radius") : std::nullopt;
-        if (!apex_radius) return false;
-        const double one = *base_radius, other = *apex_radius;
-        if (nearly_same_point(*base, *apex)) {
-            report(offset, same_cone_ends);
+    void read_cone() {
+        const glm::dvec3 base = vec3(0), apex = vec3(4);
+        const double one = numbers_[3].value, other = numbers_[7].value;
+        if (nearly_same_point(base, apex)) {
+            report(offset_, same_cone_ends);
         } else if (one == 0 && other == 0) {
-            report(offset, zero_cone_radii);
+            report(offset_, zero_cone_radii);
         } else if (std::min(one, other) < 0 && std::max(one, other) > 0) {
-            report(offset, "the radii have opposite signs; give both the same sign");
+            report(offset_, "the radii have opposite signs; give both the same sign");
         } else {
-            scene_.cones.push_back({*base, *apex, std::abs(one), std::abs(other), material()});
+            scene_.cones.push_back({base, apex, std::abs(one), std::abs(other), material()});
         }
-        return true;
     }
 
     bool read_polygon(bool is_patch) {
-        const std::size_t offset = next_offset();
-        const auto count = read_integer("vertex count", 3, 1 << 30);
-        if (!count) return false;
-        const std::size_t least_bytes = is_patch ? 12 : 6;  // of a vertex
-        if (static_cast<std::size_t>(*count) > (scanner_.bytes_left() + 1) / least_bytes) {
+        if (!is_whole(0, "vertex count", 3, 1 << 30)) return false;
+        const std::size_t offset = numbers_[0].offset, each = is_patch ? 6 : 3;
+        const auto count = static_cast<std::size_t>(numbers_[0].value);
+        if (count > (scanner_.bytes_left() + 1) / (2 * each)) {
             report(offset, fmt::format("vertex count is {}, and the rest of the file is too short "
                                        "for so many; write how many follow",
-                                       *count));
+                                       count));
             return false;
         }
+        if (!read_numbers(count * each)) return false;
         corners_.clear();
         normals_.clear();
-        for (int i = 0; i < *count; ++i) {
-            const auto corner = read_vec3("vertex");
-            const std::size_t normal_offset = corner && is_patch ? next_offset() : 0;
-            const auto normal = corner && is_patch ? read_vec3("normal") : std::nullopt;
-            if (!corner || (is_patch && !normal)) return false;
-            corners_.push_back(*corner);
-            const auto unit = normal ? unit_direction(*normal) : std::nullopt;
-            if (unit) normals_.push_back(*unit);
-            if (normal && !unit) {
-                mistakes_.note(made_flat, normal_offset,
+        for (std::size_t i = 1; i < numbers_.size(); i += each) {
+            corners_.push_back(vec3(i));
+            if (!is_patch) continue;
+            if (const auto unit = unit_direction(vec3(i + 3))) {
+                normals_.push_back(*unit);
+            } else {
+                mistakes_.note(made_flat, numbers_[i + 3].offset,
                                "a vertex normal is zero; give it a direction");
             }
         }
@@ -444,17 +414,24 @@ class NffReader {
         }
     }
 
+    struct Number {
+        double value;
+        std::size_t offset;
+    };
+
     LineScanner scanner_;
     Mistakes mistakes_;
     Scene scene_;
-    std::string_view usage_;                        ///< the syntax of the entity being read
-    const Remedy* remedy_ = nullptr;                ///< for it, if it cannot be read
-    std::optional<std::size_t> view_, background_;  ///< their offsets
-    std::map<Fill, int> fills_;                     ///< equal ones share a material
-    int material_ = -1;                             ///< -1: no fill yet
-    std::vector<glm::dvec3> corners_, normals_;     ///< of the polygon at hand
+    const Statement* statement_ = nullptr;  ///< being read
+    std::size_t offset_ = 0;                ///< of it
+    std::vector<Number> numbers_;           ///< of it
+    bool in_view_ = false;                  ///< it is a view or a part of one
+    /// Of the view, its parts and the background.
+    std::array<std::optional<std::size_t>, background + 1> places_;
+    std::map<Fill, int> fills_;                  ///< equal ones share a material
+    int material_ = -1;                          ///< -1: no fill yet
+    std::vector<glm::dvec3> corners_, normals_;  ///< of the polygon at hand
     std::vector<std::array<std::uint32_t, 3>> parts_;
-    bool skips_words_ = false;
     bool has_lost_ = false;  ///< a shape, or a statement that may be one
 };
 
