@@ -234,6 +234,8 @@ TEST_F(Journals, MergeRefusesWhatDiffers) {
     std::string bytes = bytes_of("a.mbj");
     const std::vector<std::size_t> ends = record_ends(bytes);
     const std::size_t body = ends[1] + 12, length = ends[2] - body;
+    Rect tile{};
+    std::memcpy(&tile, &bytes[body], sizeof(tile));
     bytes[body + length - 1] ^= 1;  // a driver that computes wrong
     const std::uint32_t crc =
         record_crc(RecordKind::tile, std::as_bytes(std::span(bytes)).subspan(body, length));
@@ -241,7 +243,10 @@ TEST_F(Journals, MergeRefusesWhatDiffers) {
     put("a.mbj", bytes);
     const Refusal wrong = refusal_of([&] { merge_journals({path("a.mbj"), path("b.mbj")}); });
     EXPECT_EQ(wrong.exit_code, ExitCode::different);
-    for (const char* words : {"a.mbj (threads on ", "b.mbj (threads on ", "1 pixel"}) {
+    const std::string place = " differ at " + std::to_string(tile.x + tile.width - 1) + "," +
+                              std::to_string(tile.y + tile.height - 1) + ";";
+    for (const std::string& words :
+         {std::string("a.mbj (threads on "), std::string("b.mbj (threads on "), place}) {
         EXPECT_NE(wrong.message.find(words), std::string::npos) << wrong.message;
     }
     render_shares(small("grid:3"), "1/2", path("c.mbj"));

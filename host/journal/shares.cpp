@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <numeric>
 #include <set>
 #include <span>
@@ -167,20 +166,6 @@ class Merger {
         }
     }
 
-    /// Throws Error where parts differ.
-    void check() const {
-        if (differences_.empty()) return;
-        const auto& [pair, difference] = *differences_.begin();
-        const auto width = static_cast<std::size_t>(region_.width);
-        throw Error(ExitCode::different,
-                    fmt::format("{} and {} differ in {}, the first at {},{}; one of the devices "
-                                "is wrong: render both shares again",
-                                described(pair.first), described(pair.second),
-                                counted(difference.pixels, "pixel"),
-                                static_cast<std::size_t>(region_.x) + difference.first % width,
-                                static_cast<std::size_t>(region_.y) + difference.first / width));
-    }
-
     MergedPicture result(const JournalHeader& header) {
         MergedPicture merged;
         merged.header = header;
@@ -199,20 +184,23 @@ class Merger {
         std::string path;
         std::vector<JournalWriterInfo> writers;
     };
-    struct Difference {
-        std::size_t pixels = 0, first = 0;
-    };
 
     static constexpr std::size_t pixel_bytes = 3 * sizeof(T);
 
+    /// Throws Error where another part's pixel differs.
     void take_pixel(std::size_t i, const std::byte* values) {
         const auto part = static_cast<int>(parts_.size()) - 1;
         if (owner_[i] < 0) {
             owner_[i] = part;
             std::memcpy(&film_.rgb[3 * i], values, pixel_bytes);
         } else if (std::memcmp(&film_.rgb[3 * i], values, pixel_bytes) != 0) {
-            const auto added = differences_.insert({{owner_[i], part}, {0, i}}).first;
-            ++added->second.pixels;
+            const auto width = static_cast<std::size_t>(region_.width);
+            throw Error(ExitCode::different,
+                        fmt::format("{} and {} differ at {},{}; one of the devices is wrong: "
+                                    "render both shares again",
+                                    described(owner_[i]), described(part),
+                                    static_cast<std::size_t>(region_.x) + i % width,
+                                    static_cast<std::size_t>(region_.y) + i / width));
         }
     }
 
@@ -246,7 +234,6 @@ class Merger {
     Film<T> film_;
     std::vector<int> owner_;  ///< index of the part that each pixel came from; -1: none
     std::vector<Part> parts_;
-    std::map<std::pair<int, int>, Difference> differences_;
 };
 
 template <typename T>
@@ -262,7 +249,6 @@ MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& 
             merger.add(path, reader, notes);
         });
     }
-    merger.check();
     MergedPicture merged = merger.result(first);
     merged.notes = std::move(notes);
     return merged;

@@ -56,8 +56,8 @@ struct MergedPicture {
 
 /// Merges parts in any order. Pixels present in several parts must be equal. Those without a
 /// complete header are ignored, with a note. Throws Error: input for a part that is no journal or
-/// belongs to another picture than the first; different, with files, hosts and devices, where parts
-/// differ; limit.
+/// belongs to another picture than the first; different, with files, hosts and devices, for the
+/// first pixel that differs; limit.
 MergedPicture merge_journals(const std::vector<std::string>& parts);
 
 }  // namespace rt

@@ -105,7 +105,7 @@ class Wrong(WrongDriver):
         out = self.folder / "out.png"
         merge = ["merge", good, bad, "-o", str(out)]
         _, said = self.hash_of(1, *merge, again)
-        for words in ["bad.mbj (", "threads on ", "differ in"]:
+        for words in ["bad.mbj (", "threads on ", "differ at"]:
             self.assertIn(words, said)
         self.assertFalse(out.exists())
         self.hash_of(0, *merge)
