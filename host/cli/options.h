@@ -18,6 +18,7 @@
 #include "host/image/encoding.h"
 #include "host/image/picture_io.h"
 #include "host/picture/render_settings.h"
+#include "host/scene/scene_file.h"
 
 // Parsing of option values, and the options that several verbs share.
 namespace rt {

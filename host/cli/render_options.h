@@ -41,6 +41,7 @@ struct BatchItem {
 /// `mirrorball render`; defaults are the scene's.
 struct RenderOptions : RenderSettings {
     std::string scene;
+    LightOverrides light;
     std::string output;  ///< empty: none; "-": stdout; with several scenes %s is the name
     std::optional<PictureFormat> format;  ///< of stdout; files go by their extension
     std::vector<std::string> scenes;      ///< all of them, if there are several

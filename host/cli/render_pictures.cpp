@@ -422,10 +422,6 @@ void print_finished(const std::string& record) {
 
 void choose_journal(RenderOptions& options) {
     if (options.output.empty() || options.target_rmse > 0) return;
-    std::error_code ignored;
-    if (options.scene != stdin_scene) {
-        options.scene_file = std::filesystem::absolute(options.scene, ignored).string();
-    }
     if (options.shares) {
         options.journal = options.output;
     } else if (!find_output_destination(options.output).in_place) {

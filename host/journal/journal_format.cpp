@@ -56,8 +56,6 @@ JournalHeader parse_header(std::span<const std::byte> body) {
             what = "region";
         } else if (picture.max_bounces < 0) {
             what = "max_bounces";
-        } else if (header.ambient_light && header.ambient_light->size() != 3) {
-            what = "ambient_light";
         }
     } catch (const Error& error) {
         what = error.what();

@@ -38,11 +38,6 @@ struct JournalHeader {
     PictureSpec picture;
     std::string shares;             ///< as to_string(Shares)
     std::string scene, scene_hash;  ///< as a picture's metadata have them
-    /// To render it again: the file as given to the first writer, which may be empty, and what
-    /// overrides the scene's light.
-    std::string scene_file;
-    std::optional<double> light_scale;
-    std::optional<std::vector<double>> ambient_light;
 
     bool is_double() const { return picture.precision == Precision::float64; }
     std::size_t pixel_bytes() const { return 3 * (is_double() ? 8 : 4); }
@@ -56,9 +51,6 @@ void describe(A& a, X& x) {
     a("shares", x.shares, "");
     a("scene", x.scene, "");
     a("scene_hash", x.scene_hash, "");
-    a("scene_file", x.scene_file, "");
-    a("light_scale", x.light_scale, "");
-    a("ambient_light", x.ambient_light, "");
 }
 
 /// Which process wrote the records that follow.

@@ -17,6 +17,7 @@
 #include "host/picture/render_stats.h"
 #include "host/record/record.h"
 #include "host/scene/scene.h"
+#include "host/scene/scene_file.h"
 
 // Repeated runs of one picture, figures of them, and what disturbs them.
 namespace rt {

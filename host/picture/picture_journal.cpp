@@ -49,11 +49,6 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     header_.shares = to_string(settings.shares.value_or(Shares{}));
     header_.scene = stats.scene.name;
     header_.scene_hash = hash_text(stats.scene.hash);
-    header_.scene_file = settings.scene_file;
-    header_.light_scale = settings.light.light_scale;
-    if (const auto& light = settings.light.ambient_light) {
-        header_.ambient_light = {light->x, light->y, light->z};
-    }
     header_.key = key(inexact_devices);
     open();
 }

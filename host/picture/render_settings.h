@@ -8,7 +8,6 @@
 #include "host/render/picture_spec.h"
 #include "host/scene/aa_mode.h"
 #include "host/scene/scene.h"
-#include "host/scene/scene_file.h"
 
 namespace rt {
 
@@ -37,8 +36,6 @@ struct RenderSettings {
     /// Where finished tiles are kept, so that an interrupted render can resume; empty: nowhere.
     /// Pictures with fast math or sample buffers are not kept.
     std::string journal;
-    std::string scene_file;        ///< for the journal to record: where to find the scene again,
-    LightOverrides light;          ///< and how it was loaded
     double journal_delay = 2;      ///< seconds of tracing not worth saving
     bool fresh = false;            ///< ignore an existing journal
     std::optional<Shares> shares;  ///< render only these, into the journal, which is the result

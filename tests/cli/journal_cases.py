@@ -152,8 +152,10 @@ class Shares(JournalTest):
         self.share("0/2", "a.mbj", *SMALL)
         self.share("1/2", "b.mbj", *SMALL, "--aa", "none")
         self.share("1/2", "c.mbj", *SMALL, scene="glass")
+        self.share("1/2", "d.mbj", *SMALL, "--ambient", "0.5")
         self.write_text("text.mbj", "no journal")
-        for part, words in [("b.mbj", "part of the same picture as a.mbj: the settings differ"), ("c.mbj", "the scene differs"),
+        for part, words in [("b.mbj", "part of the same picture as a.mbj: the settings differ"),
+                            ("c.mbj", "the scene differs"), ("d.mbj", "the scene differs"),
                             ("text.mbj", "is not a journal"),
                             ("nowhere.mbj", "cannot read"), (".", "directory")]:
             self.assert_refused(self.run_cli("merge", "a.mbj", part, "-o", "x.png"), 3, part, words)
