@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -34,11 +35,6 @@
 namespace rt {
 
 namespace {
-
-/// Aborts the whole batch.
-struct BatchEnds : Error {
-    using Error::Error;
-};
 
 /// The reference picture, read before the render takes hours and perhaps overwrites it.
 std::optional<Picture> load_reference(const RenderOptions& options, const Scene& scene) {
@@ -172,6 +168,10 @@ class Pictures {
     }
 
     int run() {
+        if (!options_.frames.empty()) {
+            load_afresh(options_);
+            if (scene_.path.keys.empty()) camera_at(scene_, 0);  // throws
+        }
         // The first one reports a stop that comes early.
         for (std::size_t at = 0; at < options_.items.size() && (at == 0 || stop_flag() == 0);
              ++at) {
@@ -186,15 +186,14 @@ class Pictures {
     }
 
    private:
-    /// Of a batch, other errors than BatchEnds are noted.
+    /// Of a batch, errors are noted, unless results cannot be printed any more.
     template <typename Work>
     void attempt(std::size_t at, const Work& work) {
         if (!is_batch_) return work();
         try {
             work();
-        } catch (const BatchEnds&) {
-            throw;
         } catch (const Error& error) {
+            if (std::ferror(stdout) != 0) throw;
             note(at, error);
         } catch (const std::bad_alloc&) {
             note(at, Error(ExitCode::limit, out_of_memory));
@@ -260,15 +259,14 @@ class Pictures {
         check_aov_files(options, inputs_);
     }
 
-    /// A camera path's scene is loaded once. Throws BatchEnds where no frame can be rendered.
+    /// The scene of all frames is loaded before the first.
     const Scene& load(const BatchItem& item, const RenderOptions& options) {
-        if (!item.frame) {
+        if (item.frame) {
+            scene_.camera = camera_at(scene_, *item.frame);
+            set_image_size(scene_, scene_.width, scene_.height);
+        } else {
             load_afresh(options);
-            return scene_;
         }
-        if (!has_path_) load_path(options);
-        scene_.camera = camera_at(scene_, *item.frame);
-        set_image_size(scene_, scene_.width, scene_.height);
         return scene_;
     }
 
@@ -290,14 +288,6 @@ class Pictures {
             const Rect region = options.crop.value_or(Rect{0, 0, scene_.width, scene_.height});
             check_picture_fits(options.output, region.width, region.height, options.format);
         }
-    }
-
-    void load_path(const RenderOptions& options) try {
-        load_afresh(options);
-        if (scene_.path.keys.empty()) camera_at(scene_, 0);  // throws
-        has_path_ = true;
-    } catch (const Error& error) {
-        throw BatchEnds(error.exit_code(), error.what());
     }
 
     RenderedPicture render(const Scene& scene, const RenderOptions& options,
@@ -351,11 +341,7 @@ class Pictures {
     static void report(std::size_t at, int status, const std::string& results) {
         const std::string record = fmt::format("{} {}\n{}", at, status, results);
         if (is_worker()) return tell_parent(record);
-        try {
-            print_finished(record);
-        } catch (const Error& error) {
-            throw BatchEnds(error.exit_code(), error.what());
-        }
+        print_finished(record);
     }
 
     void note(std::size_t at, const Error& error) {
@@ -403,7 +389,6 @@ class Pictures {
     RenderCache cache_;
     UsedFiles inputs_;  ///< as far as they are known
     Scene scene_;
-    bool has_path_ = false;  ///< scene_ is the one for all frames
     bool has_said_unsaved_ = false;
     std::size_t there_ = 0;  ///< frames skipped since their pictures existed
     std::future<int> writing_;

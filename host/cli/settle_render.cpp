@@ -160,7 +160,8 @@ void settle_frames(RenderOptions& render) {
         {{render.scenes.size() != 1 || !render.batch.empty(),
           "--frames requires exactly one scene"},
          {compares(render), "--reference and --expect cannot be combined with --frames"}});
-    render.output = batch_output(render.output, render.scenes.front());
+    render.scene = render.scenes.front();
+    render.output = batch_output(render.output, render.scene);
     const bool is_pattern =
         render.frames.size() > 1 || render.output.find('%') != std::string::npos;
     if (!render.output.empty() && is_pattern && !has_frame_number(render.output)) {
