@@ -39,12 +39,12 @@ std::string icd_place() {
 }
 
 /// Measures in a worker process, which the OpenCL drivers it loads may crash.
-int run_in_worker(const Invocation& call) {
+int run_in_worker(const Verb& verb, const Invocation& call) {
     const WorkerCommand command{call.command, "", deadline, call.seconds_before_main};
     const WorkerEnd end = run_without_bad_drivers(command, call.drivers, false);
     if (end.is_regular) return end.status;
     end_if_stopped(end);
-    throw Error(call.crash, (end.task.empty() ? "" : end.task + ": ") + "the worker process " +
+    throw Error(verb.crash, (end.task.empty() ? "" : end.task + ": ") + "the worker process " +
                                 end.how + "; test each driver with 'mirrorball doctor'");
 }
 
@@ -57,15 +57,11 @@ int run(int argc, char** argv, double seconds_before_main) {
     call.drivers = icd_place();
     call.seconds_before_main = seconds_before_main + seconds_before_worker();
     for (AddVerb* const add : verbs) add(program, call);
-    const std::string text =
+    Verb& verb =
         read_command_line(program, fmt::format("mirrorball {} ({})", version, git_revision),
                           {argv + 1, argv + std::max(argc, 1)});
-    if (call.quiet) stop_quietly();
-    if (!call.run) {
-        print_result(text);
-        return static_cast<int>(ExitCode::done);
-    }
-    return call.measures && !is_worker() ? run_in_worker(call) : call.run();
+    if (verb.given("-q")) stop_quietly();
+    return verb.measures && !is_worker() ? run_in_worker(verb, call) : verb.run();
 }
 
 /// Also prints the results so far: main ends without closing the streams.

@@ -33,7 +33,7 @@ int run_bench(const BenchCall& options) {
 
 }  // namespace
 
-void add_bench(Verb& program, Invocation& call) {
+void add_bench(Verb& program, const Invocation&) {
     const auto asked = std::make_shared<BenchCall>();
     BenchCall& bench = *asked;
     bench.aa = parse_aa_list("none,grid:2");
@@ -56,9 +56,8 @@ void add_bench(Verb& program, Invocation& call) {
     bench.results.add(verb, "--csv", csv_start, "write one row per run as CSV");
     add_build_extras(verb);
     verb.flag("-q,--quiet", bench.quiet, quiet_help);
-    verb.chosen = [asked, &call] {
-        call.in_worker([asked] { return run_bench(*asked); }, asked->quiet);
-    };
+    verb.run = [asked] { return run_bench(*asked); };
+    verb.measures = true;
 }
 
 }  // namespace rt

@@ -35,7 +35,7 @@ int run_blame(const std::string& spec, const std::string& folder) {
 
 }  // namespace
 
-void add_blame(Verb& program, Invocation& call) {
+void add_blame(Verb& program, const Invocation&) {
     struct Asked {
         std::string device, folder = "blame";
     };
@@ -46,10 +46,9 @@ void add_blame(Verb& program, Invocation& call) {
     verb.value("-o,--output", "FOLDER", asked->folder,
                "folder for a C program that shows the fault (default: blame)");
     add_build_extras(verb);
-    verb.chosen = [asked, &call] {
-        call.in_worker([asked] { return run_blame(asked->device, asked->folder); }, false);
-        call.crash = ExitCode::different;
-    };
+    verb.run = [asked] { return run_blame(asked->device, asked->folder); };
+    verb.measures = true;
+    verb.crash = ExitCode::different;
 }
 
 }  // namespace rt

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/scene/words.h"
@@ -246,9 +247,15 @@ Option* Verb::find(const std::string& name) {
     return found == options.end() ? nullptr : &*found;
 }
 
-std::string read_command_line(Verb& program, const std::string& version,
-                              std::vector<std::string> words) {
+Verb& read_command_line(Verb& program, const std::string& version, std::vector<std::string> words) {
     std::string answer;
+    const auto only_print = [&program](const std::string& text) -> Verb& {
+        program.run = [text] {
+            print_result(text);
+            return static_cast<int>(ExitCode::done);
+        };
+        return program;
+    };
     const auto print_version = [&](const std::string&) { answer = version + "\n"; };
     const auto print_manual = [&](const std::string&) { answer = man_page(program, version); };
     const auto print_script = [&](const std::string& shell) { answer = completion_script(shell); };
@@ -257,19 +264,18 @@ std::string read_command_line(Verb& program, const std::string& version,
     program.option("--completions", "bash|zsh|fish", "Print a completion script for a shell",
                    print_script);
     if (!words.empty() && words.front() == "--complete") {
-        return completions_of(program, {words.begin() + 1, words.end()});
+        return only_print(completions_of(program, {words.begin() + 1, words.end()}));
     }
     if (!words.empty() && words.front() == "help") {
         words.erase(words.begin());
         words.emplace_back("--help");
     }
     Reader reader(program, std::move(words));
-    const Verb& verb = reader.read();
-    if (verb.wants_help) return help_text(verb);
-    if (!answer.empty()) return answer;
+    Verb& verb = reader.read();
+    if (verb.wants_help) return only_print(help_text(verb));
+    if (!answer.empty()) return only_print(answer);
     reader.check();
-    verb.chosen();
-    return "";
+    return verb;
 }
 
 }  // namespace rt

@@ -43,8 +43,10 @@ struct Verb {
     std::string about;
     std::vector<Option> options;
     std::list<Verb> verbs;
-    std::function<void()> chosen;   ///< called after the whole command line was read
-    std::string group = "Options";  ///< of the options that are added next
+    std::function<int()> run;           ///< returns the exit status: an ExitCode, or 128 + a signal
+    bool measures = false;              ///< to be run in a worker process, for drivers may crash
+    ExitCode crash = ExitCode::device;  ///< what a crash of that process means
+    std::string group = "Options";      ///< of the options that are added next
     bool wants_help = false;
 
     Verb(const std::string& path, const std::string& about);
@@ -89,13 +91,14 @@ struct Verb {
     /// The option or flag of that name; null if there is none.
     Option* find(const std::string& name);
 
-    bool given(const std::string& name) { return find(name)->given > 0; }
+    /// Whether it has that option or flag, and the command line does.
+    bool given(const std::string& name) { return find(name) != nullptr && find(name)->given > 0; }
 };
 
-/// Reads the words after the program's name. Returns the text to print if help, the version, the
-/// manual page or completions were requested, else "". Throws Error (ExitCode::usage).
-std::string read_command_line(Verb& program, const std::string& version,
-                              std::vector<std::string> words);
+/// Reads the words after the program's name. Returns the verb to run: the program itself, which
+/// prints a text, if help, the version, the manual page or completions were requested. Throws Error
+/// (ExitCode::usage).
+Verb& read_command_line(Verb& program, const std::string& version, std::vector<std::string> words);
 
 /// The manual page of section 1, in roff. `version` begins with the program's name.
 std::string man_page(const Verb& program, const std::string& version);

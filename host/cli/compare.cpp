@@ -174,7 +174,7 @@ std::string parse_heatmap(const std::string& text) {
 
 }  // namespace
 
-void add_compare(Verb& program, Invocation& call) {
+void add_compare(Verb& program, const Invocation&) {
     const auto asked = std::make_shared<CompareOptions>();
     CompareOptions& compare = *asked;
     Verb& verb = program.verb("compare", "measure the difference between two pictures");
@@ -194,7 +194,7 @@ void add_compare(Verb& program, Invocation& call) {
     verb.flag("--clamp", compare.clamp, "first clamp values to 0..1, as 8-bit files do");
     compare.results.add(verb, "--json", json_start("compare"),
                         "write JSON, to FILE or to stdout instead of the text");
-    verb.chosen = [asked, &call] { call.here([asked] { return run_compare(*asked); }); };
+    verb.run = [asked] { return run_compare(*asked); };
 }
 
 }  // namespace rt

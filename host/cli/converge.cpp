@@ -65,7 +65,7 @@ void add_sweep(Verb& verb, ConvergeCall& converge) {
 
 }  // namespace
 
-void add_converge(Verb& program, Invocation& call) {
+void add_converge(Verb& program, const Invocation&) {
     const auto asked = std::make_shared<ConvergeCall>();
     ConvergeCall& converge = *asked;
     converge.aa = parse_aa_list(default_sweep);
@@ -82,9 +82,8 @@ void add_converge(Verb& program, Invocation& call) {
     converge.results.add(verb, "--csv", csv_start, "write one row per run as CSV");
     add_build_extras(verb);
     verb.flag("-q,--quiet", converge.quiet, quiet_help);
-    verb.chosen = [asked, &call] {
-        call.in_worker([asked] { return run_converge(*asked); }, asked->quiet);
-    };
+    verb.run = [asked] { return run_converge(*asked); };
+    verb.measures = true;
 }
 
 }  // namespace rt

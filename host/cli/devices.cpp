@@ -83,13 +83,11 @@ int run_devices(const std::string& place, bool json) {
 
 }  // namespace
 
-void add_devices(Verb& program, Invocation& call) {
+void add_devices(Verb& program, const Invocation& call) {
     const auto json = std::make_shared<bool>(false);
     Verb& verb = program.verb("devices", "list devices; for unusable ones, say why");
     verb.flag("--json", *json, json_help);
-    verb.chosen = [json, &call] {
-        call.here([json, &call] { return run_devices(call.drivers, *json); });
-    };
+    verb.run = [json, &call] { return run_devices(call.drivers, *json); };
 }
 
 }  // namespace rt

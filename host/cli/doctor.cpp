@@ -253,7 +253,7 @@ int run_doctor(const DoctorOptions& options) {
 
 }  // namespace
 
-void add_doctor(Verb& program, Invocation& call) {
+void add_doctor(Verb& program, const Invocation& call) {
     const auto asked = std::make_shared<DoctorOptions>();
     DoctorOptions& doctor = *asked;
     Verb& verb = program.verb(
@@ -266,10 +266,8 @@ void add_doctor(Verb& program, Invocation& call) {
                "seconds without progress after which a device counts as hung; its test may take "
                "ten times as long (default: 30)");
     add_build_extras(verb);
-    verb.chosen = [asked, &call] {
-        asked->drivers = call.drivers;
-        call.here([asked] { return run_doctor(*asked); });
-    };
+    doctor.drivers = call.drivers;
+    verb.run = [asked] { return run_doctor(*asked); };
 }
 
 }  // namespace rt

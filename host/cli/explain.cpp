@@ -91,7 +91,7 @@ AaMode parse_explained_aa(const std::string& text) {
 
 }  // namespace
 
-void add_explain(Verb& program, Invocation& call) {
+void add_explain(Verb& program, const Invocation&) {
     const auto asked = std::make_shared<ExplainOptions>();
     ExplainOptions& explain = *asked;
     explain.settings.aa = grid_aa(1);
@@ -116,7 +116,7 @@ void add_explain(Verb& program, Invocation& call) {
     add_light_options(verb, explain.light);
     verb.flag("-v,--verbose", explain.verbose, "also show rays of weight below 0.004");
     verb.flag("--json", explain.json, json_help);
-    verb.chosen = [asked, &call] { call.here([asked] { return run_explain(*asked); }); };
+    verb.run = [asked] { return run_explain(*asked); };
 }
 
 }  // namespace rt

@@ -80,7 +80,7 @@ int run_merge(const MergeOptions& options) {
 
 }  // namespace
 
-void add_merge(Verb& program, Invocation& call) {
+void add_merge(Verb& program, const Invocation&) {
     const auto asked = std::make_shared<MergeOptions>();
     MergeOptions& merge = *asked;
     Verb& verb = program.verb("merge", "merge the parts of a picture written by render --shard");
@@ -93,9 +93,9 @@ void add_merge(Verb& program, Invocation& call) {
     verb.flag("--allow-missing", merge.allow_missing,
               "write the picture even if parts are missing, which are left black");
     verb.flag("-q,--quiet", merge.quiet, "print only errors");
-    verb.chosen = [asked, &call] {
+    verb.run = [asked] {
         settle_picture_output(asked->output, asked->format);
-        call.here([asked] { return run_merge(*asked); }, asked->quiet);
+        return run_merge(*asked);
     };
 }
 

@@ -89,8 +89,8 @@ std::filesystem::file_time_type journal_time(RenderOptions options) {
 }
 
 /// A worker gets extra time to save its picture at --timeout: its driver may never finish.
-WorkerCommand worker_command(const RenderOptions& options, double seconds_before_main) {
-    WorkerCommand command{options.command, "", options.deadline, seconds_before_main};
+WorkerCommand worker_command(const RenderOptions& options, const Invocation& call) {
+    WorkerCommand command{call.command, "", options.deadline, call.seconds_before_main};
     if (options.timeout > 0) command.longest = options.timeout + options.deadline;
     command.told = print_finished;
     return command;
@@ -98,13 +98,13 @@ WorkerCommand worker_command(const RenderOptions& options, double seconds_before
 
 /// Renders in a worker process, which loads the OpenCL drivers; if that fails, threads finish the
 /// picture or batch in this one.
-int render_isolated(RenderOptions options, double seconds_before_main) {
+int render_isolated(RenderOptions options, const Invocation& call) {
     const Stopwatch watch;
     const std::string name = options.device.empty() ? "OpenCL" : "--device " + options.device;
     if (std::ranges::count(options.items, stdin_scene, &BatchItem::scene) > 0) keep_stdin();
     const auto journal_before = journal_time(options);
-    const WorkerEnd end = run_without_bad_drivers(worker_command(options, seconds_before_main),
-                                                  options.drivers, options.quiet);
+    const WorkerEnd end =
+        run_without_bad_drivers(worker_command(options, call), call.drivers, options.quiet);
     if (end.is_regular) return end.status;
     const std::string failure = "the driver process " + end.how;
     if (options.no_fallback) {
@@ -124,16 +124,16 @@ int render_isolated(RenderOptions options, double seconds_before_main) {
     options.failed_device = name;
     options.device_failure = failure;
     options.device = "threads";
-    return render_here(options, seconds_before_main + watch.seconds());
+    return render_here(options, call.seconds_before_main + watch.seconds());
 }
 
 }  // namespace
 
-int run_render(const RenderOptions& options, double seconds_before_main) {
+int run_render(const RenderOptions& options, const Invocation& call) {
     if (options.isolate && !is_worker() && needs_opencl(options.device)) {
-        return render_isolated(options, seconds_before_main);
+        return render_isolated(options, call);
     }
-    return render_here(options, seconds_before_main);
+    return render_here(options, call.seconds_before_main);
 }
 
 }  // namespace rt

@@ -229,7 +229,7 @@ void add_report_options(Verb& verb, RenderOptions& render) {
 
 }  // namespace
 
-void add_render(Verb& program, Invocation& call) {
+void add_render(Verb& program, const Invocation& call) {
     const auto asked = std::make_shared<RenderOptions>();
     RenderOptions& render = *asked;
     Verb& verb = program.verb("render", "render one or more pictures");
@@ -252,13 +252,10 @@ void add_render(Verb& program, Invocation& call) {
     add_report_options(verb, render);
     verb.group = "Watching";
     add_view_options(verb, render.view);
-    verb.chosen = [asked, &verb, &call] {
+    verb.run = [asked, &verb, &call] {
         if (!verb.given("--device")) asked->device = device_from_environment();
         settle_render(*asked);
-        asked->drivers = call.drivers;
-        asked->command = call.command;
-        call.here([asked, &call] { return run_render(*asked, call.seconds_before_main); },
-                  asked->quiet);
+        return run_render(*asked, call);
     };
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/cli/verb.h"
 #include "host/image/encoding.h"
 #include "host/image/picture_io.h"
 #include "host/picture/render_settings.h"
@@ -63,10 +64,8 @@ struct RenderOptions : RenderSettings {
     double deadline = 10;        ///< seconds without progress after which a driver is hung
     std::string failed_device;   ///< that threads replace
     std::string device_failure;  ///< how it failed
-    std::string drivers;         ///< where OpenCL finds its .icd files
     /// What a worker told of the pictures of a batch before its driver failed; see print_finished.
     std::vector<std::string> batch_past;
-    std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;
 
     bool is_batch() const { return !batch.empty() || scenes.size() > 1 || !frames.empty(); }
@@ -76,8 +75,7 @@ struct RenderOptions : RenderSettings {
 /// Throws Error (ExitCode::usage) for options that cannot be combined.
 void settle_render(RenderOptions& render);
 
-/// `mirrorball render`. Returns the exit status. `seconds_before_main`: time since the program
-/// began.
-int run_render(const RenderOptions& options, double seconds_before_main);
+/// `mirrorball render`. Returns the exit status.
+int run_render(const RenderOptions& options, const Invocation& call);
 
 }  // namespace rt

@@ -75,7 +75,7 @@ int run_report(const ReportOptions& options, std::span<const std::string> argume
 
 }  // namespace
 
-void add_report(Verb& program, Invocation& call) {
+void add_report(Verb& program, const Invocation& call) {
     const auto asked = std::make_shared<ReportOptions>();
     ReportOptions& report = *asked;
     Verb& verb =
@@ -96,9 +96,8 @@ void add_report(Verb& program, Invocation& call) {
     verb.flag("--stress", report.stress,
               "also run the stress suite, which takes minutes (with --quick, its quick part)");
     verb.flag("-q,--quiet", report.quiet, quiet_help);
-    verb.chosen = [asked, &call] {
-        const auto arguments = std::span<const std::string>(call.command).subspan(2);
-        call.here([asked, arguments] { return run_report(*asked, arguments); }, asked->quiet);
+    verb.run = [asked, &call] {
+        return run_report(*asked, std::span<const std::string>(call.command).subspan(2));
     };
 }
 

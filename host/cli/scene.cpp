@@ -166,29 +166,26 @@ int check_scene(const SceneOptions& options) {
 
 using RunScene = int (*)(const SceneOptions&);
 
-void add_scene_action(Verb& scene, const char* name, const char* help, RunScene run,
-                      Invocation& call) {
+void add_scene_action(Verb& scene, const char* name, const char* help, RunScene run) {
     const auto asked = std::make_shared<SceneOptions>();
     Verb& action = scene.verb(name, help);
     action.argument("SCENE", asked->scene, scene_help);
     add_light_options(action, asked->light);
     action.flag("--json", asked->json, json_help);
-    action.chosen = [=, &call] { call.here([=] { return run(*asked); }); };
+    action.run = [=] { return run(*asked); };
 }
 
 }  // namespace
 
-void add_scene(Verb& program, Invocation& call) {
+void add_scene(Verb& program, const Invocation&) {
     Verb& scene = program.verb("scene", "inspect a scene file");
     add_scene_action(scene, "info", "show what the scene contains, needs, and leaves out",
-                     show_info, call);
-    add_scene_action(scene, "check", "check the scene for errors", check_scene, call);
+                     show_info);
+    add_scene_action(scene, "check", "check the scene for errors", check_scene);
     Verb& schema = scene.verb("schema", "print the JSON Schema of scene files");
-    schema.chosen = [&call] {
-        call.here([] {
-            print_result(scene_schema);
-            return static_cast<int>(ExitCode::done);
-        });
+    schema.run = [] {
+        print_result(scene_schema);
+        return static_cast<int>(ExitCode::done);
     };
 }
 

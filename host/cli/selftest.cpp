@@ -77,7 +77,7 @@ int run_selftest(const SelftestOptions& options) {
 
 }  // namespace
 
-void add_selftest(Verb& program, Invocation& call) {
+void add_selftest(Verb& program, const Invocation&) {
     const auto asked = std::make_shared<SelftestOptions>();
     SelftestOptions& selftest = *asked;
     Verb& verb = program.verb(
@@ -97,13 +97,14 @@ void add_selftest(Verb& program, Invocation& call) {
               "render the golden pictures on threads and write scenes/golden.json (maintainers)");
     add_build_extras(verb);
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
-    verb.chosen = [asked, &call] {
+    verb.measures = true;
+    verb.crash = ExitCode::different;
+    verb.run = [asked] {
         if (asked->devices.empty()) {
             const std::string device = device_from_environment();
             if (!device.empty()) asked->devices = split_list(device);
         }
-        call.in_worker([asked] { return run_selftest(*asked); }, asked->quiet);
-        call.crash = ExitCode::different;
+        return run_selftest(*asked);
     };
 }
 

@@ -42,7 +42,7 @@ int run_stress(const StressCall& options) {
 
 }  // namespace
 
-void add_stress(Verb& program, Invocation& call) {
+void add_stress(Verb& program, const Invocation&) {
     const auto asked = std::make_shared<StressCall>();
     StressCall& stress = *asked;
     Verb& verb = program.verb(
@@ -63,11 +63,12 @@ void add_stress(Verb& program, Invocation& call) {
     verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
     add_build_extras(verb);
     verb.flag("-q,--quiet", stress.quiet, quiet_help);
-    verb.chosen = [asked, &verb, &call] {
+    verb.measures = true;
+    verb.run = [asked, &verb] {
         if (asked->list && (verb.given("--json") || verb.given("-o"))) {
             usage_error("--list cannot be combined with --json or -o");
         }
-        call.in_worker([asked] { return run_stress(*asked); }, asked->quiet);
+        return run_stress(*asked);
     };
 }
 
