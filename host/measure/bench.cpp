@@ -146,14 +146,13 @@ class Plan {
         rendered.stats.scene.path = loaded.id.path;
         rendered.stats.phases.load = loaded.load_seconds;
         rendered.stats.phases.total = timed_total(rendered.stats);
-        hashes_[Precision::float64] = rendered.stats.image_hash;
+        right_[Precision::float64] = rendered.stats;
         result.references.push_back({{std::move(rendered.stats), {}}});
         references_.push_back(std::move(rendered.picture));
         picture.precision = Precision::float32;
         picture.estimate = false;
-        const RenderedPicture in_float = render_quietly(scene, picture, threads_choice());
-        hashes_[Precision::float32] = in_float.stats.image_hash;
-        return in_float.stats.complete();
+        right_[Precision::float32] = render_quietly(scene, picture, threads_choice()).stats;
+        return right_[Precision::float32].complete();
     }
 
     void add_rows(const TimedScene& loaded, RenderSettings picture) {
@@ -206,15 +205,15 @@ class Plan {
         timed.reference = &references_.back();
         timed.device = device;
         timed.settings = picture;
-        timed.expected_hash = hashes_.at(picture.precision);
+        timed.right = right_.at(picture.precision);
     }
 
     const BenchOptions& options_;
     const std::vector<DeviceChoice> devices_;
     std::deque<TimedScene> scenes_;  // deques: rows point into them
     std::deque<Picture> references_;
-    PictureSpec spec_;                           ///< of the latest reference
-    std::map<Precision, std::uint64_t> hashes_;  ///< of the latest reference, and in float
+    PictureSpec spec_;                        ///< of the latest reference
+    std::map<Precision, RenderStats> right_;  ///< of the latest reference, and in float
 };
 
 }  // namespace

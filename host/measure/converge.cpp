@@ -386,7 +386,7 @@ void time_points(const ConvergedPicture& converged, const ConvergeOptions& optio
             pictures.try_emplace({asked.precision, asked.max_bounces, to_string(asked.aa)});
         if (is_new) place->second = picture_of_threads(cases[i].scene->scene, cases[i].settings);
         if (const auto& picture = place->second) {
-            cases[i].expected_hash = picture->image_hash;
+            cases[i].right = picture;
             result.points[i].estimate = picture->estimate;
         }
     }

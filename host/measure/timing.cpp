@@ -124,7 +124,7 @@ Json machine_load_json(double load) {
 namespace {
 
 /// Why a case's newest picture is wrong: values that are not finite, or other bits than its earlier
-/// runs or threads gave. Empty if it is right.
+/// runs or threads gave, or other counts of rays. Empty if it is right.
 std::string what_is_wrong(const TimedCase& timed, const RenderStats& run) {
     if (const std::size_t count = run.error->non_finite; count > 0) {
         return counted(count, "pixel is", "pixels are") + " not finite";
@@ -134,11 +134,14 @@ std::string what_is_wrong(const TimedCase& timed, const RenderStats& run) {
         return fmt::format("the picture changes from run to run: {}, then {}",
                            hash_text(runs->front().image_hash), hash_text(run.image_hash));
     }
-    if (timed.expected_hash.value_or(run.image_hash) != run.image_hash) {
+    if (!timed.right) return "";
+    if (timed.right->image_hash != run.image_hash) {
         return fmt::format("image {}, but threads produce {}", hash_text(run.image_hash),
-                           hash_text(*timed.expected_hash));
+                           hash_text(timed.right->image_hash));
     }
-    return "";
+    if (timed.right->rays == run.rays) return "";
+    return fmt::format("it counts {} rays, but threads {}", run.rays.total(),
+                       timed.right->rays.total());
 }
 
 /// Renders a case once more and keeps the run, unless it was stopped midway.

@@ -148,7 +148,7 @@ struct TimedCase : TimedRuns {
     const Picture* reference = nullptr;  ///< of the same size; errors are relative to it
     DeviceChoice device;
     RenderSettings settings;
-    std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
+    std::optional<RenderStats> right;  ///< those of threads, in strict arithmetic
 };
 
 /// The devices that specs name, without duplicates; "all" means threads and every usable OpenCL

@@ -126,18 +126,12 @@ struct CrewMaker {
 };
 
 /// Renders four strips across the picture on the device and on threads. Throws Error
-/// (ExitCode::device) unless the bits are the same: the driver, or the kernel it keeps in its
-/// cache, is broken. Strict arithmetic only. About 33,000 samples, a millisecond or two.
+/// (ExitCode::device) unless the bits and the counts of rays are the same: the driver, or the
+/// kernel it keeps in its cache, is broken. Strict arithmetic only. About 33,000 samples, a
+/// millisecond or two.
 template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
                const std::string& isa);
-
-/// Describes a ray count too high for so many lights and bounces, which a device must have
-/// miscounted; empty if it is possible. A path has at most one ray per bounce, with glass a binary
-/// tree; every surface at most one shadow ray per light. Interrupted pictures may have counted
-/// more.
-std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_bounces,
-                            bool has_glass);
 
 /// The result of tracing part of a finished picture again on threads.
 struct TileCheck {

@@ -214,28 +214,17 @@ class Job {
         return {width, std::min({asked.height, region_.height, most / width})};
     }
 
-    /// What is wrong with the devices' results: their ray count, or, if requested, a sample of the
-    /// tiles. Empty if nothing is.
-    std::string what_is_wrong() {
-        const std::string rays =
-            impossible_rays(stats_.rays, stats_.scene.lights, picture_.max_bounces,
-                            scene_->features[feature::glass]);
-        if (!rays.empty()) return "reports an impossible number of rays: " + rays;
-        if (settings_.check <= 0) return "";
+    /// Traces a share of the tiles again, if requested; if any differ, the whole picture on
+    /// threads.
+    void check_again(const Devices& devices) {
+        if (settings_.check <= 0 || (!has_opencl(devices) && stats_.resumed == 0)) return;
         const TileCheck check = check_tiles(*scene_, settings_.kernels.isa,
                                             journal_->shared_tiles(tile_.width, tile_.height),
                                             settings_.check, region_, film_);
         stats_.tiles_checked = check.tiles;
-        if (check.wrong_tiles == 0) return "";
-        return fmt::format("{} of {} tiles differ when traced again on threads", check.wrong_tiles,
-                           check.tiles);
-    }
-
-    /// Renders the whole picture again on threads if the results were wrong.
-    void check_again(const Devices& devices) {
-        if (!has_opencl(devices) && stats_.resumed == 0) return;
-        const std::string wrong = what_is_wrong();
-        if (wrong.empty()) return;
+        if (check.wrong_tiles == 0) return;
+        const std::string wrong = fmt::format("{} of {} tiles differ when traced again on threads",
+                                              check.wrong_tiles, check.tiles);
         const std::string by = stats_.resumed == 0   ? stats_.device.name
                                : has_opencl(devices) ? stats_.device.name + " or the journal"
                                                      : "the journal";

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/picture/crew.h"
@@ -28,12 +29,13 @@ std::unique_ptr<Renderer<T>> checking_renderer(const FlatScene<T>& scene, const 
     return make_threads_renderer(scene, options);
 }
 
+/// Also the rays that it took.
 template <typename T>
-Film<T> rendered(Renderer<T>& renderer, const Rect& region) {
+std::pair<Film<T>, RayCounts> rendered(Renderer<T>& renderer, const Rect& region) {
     Film<T> film(region.width, region.height);
     TileQueue queue({region}, never_stopped);
     renderer.render(queue, region, film);
-    return film;
+    return {std::move(film), queue.rays()};
 }
 
 /// Compares bits: a NaN equals itself, and 0 is not -0.
@@ -84,18 +86,18 @@ template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
                const std::string& isa) {
     const auto threads = checking_renderer(scene, isa);
-    std::size_t wrong = 0, pixels = 0;
     for (const Rect& strip : test_strips(device, scene.params)) {
-        wrong += differing_pixels(rendered(device, strip), rendered(*threads, strip));
-        pixels += static_cast<std::size_t>(strip.pixels());
+        const auto [film, rays] = rendered(device, strip);
+        const auto [right, right_rays] = rendered(*threads, strip);
+        const std::size_t wrong = differing_pixels(film, right);
+        if (wrong == 0 && rays == right_rays) continue;
+        throw Error(
+            ExitCode::device,
+            fmt::format("{} fails its self-test: {} of {} pixels differ from those of threads, "
+                        "and it counts {} rays instead of {}; clear its kernel cache, update its "
+                        "driver, or use --device threads",
+                        name, wrong, strip.pixels(), rays.total(), right_rays.total()));
     }
-    if (wrong == 0) return;
-    throw Error(
-        ExitCode::device,
-        fmt::format(
-            "{} fails its self-test: {} of {} pixels differ from those of threads; clear its "
-            "kernel cache, update its driver, or use --device threads",
-            name, wrong, pixels));
 }
 
 template <typename T>
@@ -106,27 +108,11 @@ TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
     TileCheck check;
     for (const std::size_t i : sample(tiles.size(), share)) {
         const Rect& tile = tiles[i];
-        const Film<T> again = rendered(*threads, tile);
+        const Film<T> again = rendered(*threads, tile).first;
         ++check.tiles;
         if (differing_pixels(again, part_of(film, region, tile)) != 0) ++check.wrong_tiles;
     }
     return check;
-}
-
-std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_bounces,
-                            bool has_glass) {
-    const double bounces = max_bounces;
-    const double most = has_glass ? std::exp2(bounces + 1) - 2 : bounces;
-    const std::uint64_t secondary = rays.mirror + rays.transmitted;
-    if (static_cast<double>(secondary) > most * static_cast<double>(rays.primary)) {
-        return fmt::format("{} mirror and refracted rays for {} eye rays", secondary, rays.primary);
-    }
-    const double surfaces = static_cast<double>(rays.primary) + static_cast<double>(secondary);
-    if (static_cast<double>(rays.shadow) > surfaces * static_cast<double>(lights)) {
-        return fmt::format("{} shadow rays for {} other rays", rays.shadow,
-                           rays.primary + secondary);
-    }
-    return "";
 }
 
 template void self_test(Renderer<float>&, const std::string&, const FlatScene<float>&,

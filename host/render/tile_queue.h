@@ -18,6 +18,7 @@ namespace rt {
 struct RayCounts {
     std::uint64_t primary = 0, shadow = 0, mirror = 0, transmitted = 0;
 
+    bool operator==(const RayCounts&) const = default;
     std::uint64_t total() const { return primary + shadow + mirror + transmitted; }
     RayCounts operator-(const RayCounts& other) const {
         return {primary - other.primary, shadow - other.shadow, mirror - other.mirror,

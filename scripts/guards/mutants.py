@@ -254,7 +254,7 @@ MUTANTS = [
          "if (merged.missing_pixels > 9999999) merged"),
     ], cli("journal_cases.Shares.test_that_are_missing_are_named")),
     Mutant("the self-test of a device always passes", [
-        ("host/picture/tile_check.cpp", "if (wrong == 0) return;", "if (wrong < 9999) return;"),
+        ("host/picture/tile_check.cpp", "if (wrong == 0 && rays == right_rays)", "if (wrong < 9999)"),
     ], cli("wrong_cases.Wrong.test_by_its_self_test")),
     Mutant("--check compares tiles with themselves", [
         ("host/picture/tile_check.cpp", "differing_pixels(again, part_of(film",

@@ -39,6 +39,12 @@ class Bench(WrongDriver):
         self.assertEqual((threads, verdict), ({"right"}, "wrong"))
         self.assertIn("changes from run to run", why)
 
+    def test_other_rays_are_wrong(self):
+        shim = {"CL_SHIM_OLD": "counts->shadow += lit & 1;", "CL_SHIM_NEW": "counts->shadow += 9;"}
+        threads, [(verdict, why)], _ = self.verdicts(shim, 1)
+        self.assertEqual((threads, verdict), ({"right"}, "wrong"))
+        self.assertRegex(why, r"counts \d+ rays, but threads \d+")
+
 
 class Converge(WrongDriver):
     ARGUMENTS = ["converge", SCENE, "--size", "24", "--aa", "none", "--precision", "float",
