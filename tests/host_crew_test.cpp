@@ -10,6 +10,7 @@
 
 #include "host/base/error.h"
 #include "host/picture/crew.h"
+#include "tests/refusals.h"
 
 namespace rt::this_file {
 namespace {
@@ -92,10 +93,8 @@ struct Painting {
     TileQueue queue{make_tiles(picture, 4, 5), never};
     Crew<float> crew;
 
-    explicit Painting(std::vector<CrewMember<float>> members,
-                      std::optional<CrewMember<float>> spare = {})
-        : crew(std::move(members), std::move(spare),
-               [this](const std::string& line) { said.push_back(line); }) {
+    explicit Painting(std::vector<CrewMember<float>> members)
+        : crew(std::move(members), [this](const std::string& line) { said.push_back(line); }) {
         crew.open();
     }
     void render() { crew.render(queue, picture, film); }
@@ -114,7 +113,6 @@ TEST(Crew, OfOneRenders) {
     EXPECT_EQ(painting.count(1), picture.pixels());
     EXPECT_TRUE(painting.is_finished());
     EXPECT_EQ(painting.crew.times().pixels, picture.pixels());
-    EXPECT_FALSE(painting.crew.uses_spare());
 }
 
 TEST(Crew, OfSeveralSharesTheTiles) {
@@ -161,51 +159,26 @@ TEST(Crew, TellsOfMembersThatAreKnownToFailHoweverQuickTheOthersAre) {
     EXPECT_EQ(painting.said,
               std::vector<std::string>{"painter is not listed; continuing without it"});
     EXPECT_EQ(painting.crew.shares()[0].failure, "painter is not listed");
-    Painting spare({unlisted, unlisted}, member("spare", 2));
-    spare.render();
-    EXPECT_EQ(spare.count(2), picture.pixels());
-    EXPECT_TRUE(spare.crew.uses_spare());
     EXPECT_THROW(Painting({unlisted, unlisted}), Error);
 }
 
-TEST(Crew, HasTheSpareTakeOver) {
-    for (const int after : {0, 2}) {
-        Painting painting({member("a", 1, after)}, member("spare", 2));
-        painting.render();
-        EXPECT_EQ(painting.count(1), 8 * 5 * after);
-        EXPECT_EQ(painting.count(2), picture.pixels() - painting.count(1));
-        EXPECT_TRUE(painting.crew.uses_spare());
-        EXPECT_EQ(painting.said.front(), "painter fell off");
-        EXPECT_EQ(painting.crew.shares()[1].pixels, painting.count(2));
-    }
-}
-
-TEST(Crew, HasTheSpareTakeOverFromSeveral) {
-    Painting painting({member("a", 1, 1), member("b", 1, 1), failing_to_open("c")},
-                      member("spare", 2));
-    painting.render();
-    EXPECT_EQ(painting.count(1) + painting.count(2), picture.pixels());
-    EXPECT_TRUE(painting.crew.uses_spare());
-}
-
-TEST(Crew, HasTheSpareTakeOverFromOneThatDoesNotOpenOrFailsItsTest) {
-    Painting closed({failing_to_open("a")}, member("spare", 2));
-    closed.render();
-    EXPECT_EQ(closed.count(2), picture.pixels());
-    CrewMember<float> wrong = member("a", 1);
-    wrong.test = [](Renderer<float>&) { throw Error(ExitCode::device, "wrong color"); };
-    Painting tested({wrong}, member("spare", 2));
-    tested.render();
-    EXPECT_EQ(tested.count(2), picture.pixels());
-    EXPECT_EQ(tested.said.front(), "wrong color");
-}
-
-TEST(Crew, WithoutASpareThrows) {
+TEST(Crew, ThrowsTheLastFailureOnceNobodyIsLeft) {
     EXPECT_THROW(Painting({failing_to_open("a")}), Error);
     Painting one({member("a", 1, 2)});
-    EXPECT_THROW(one.render(), Error);
-    Painting two({member("a", 1, 2), member("b", 1, 2)});
-    EXPECT_THROW(two.render(), Error);
+    EXPECT_EQ(refusal_of([&] { one.render(); }).message, "painter fell off");
+    EXPECT_EQ(one.count(1), 8 * 5 * 2);
+    EXPECT_EQ(one.crew.shares()[0].pixels, one.count(1));
+    EXPECT_EQ(one.said, std::vector<std::string>());
+    Painting three({member("a", 1, 1), member("b", 1, 1), failing_to_open("c")});
+    EXPECT_THROW(three.render(), Error);
+    EXPECT_EQ(three.said.size(), 2u);
+    for (const DeviceShare& share : three.crew.shares()) EXPECT_NE(share.failure, "");
+}
+
+TEST(Crew, ThrowsWhatATestThrows) {
+    CrewMember<float> wrong = member("a", 1);
+    wrong.test = [](Renderer<float>&) { throw Error(ExitCode::device, "wrong color"); };
+    EXPECT_EQ(refusal_of([&] { Painting painting({wrong}); }).message, "wrong color");
 }
 
 TEST(Crew, LeavesErrorsThatAreNotTheDevicesToTheCaller) {
@@ -213,7 +186,7 @@ TEST(Crew, LeavesErrorsThatAreNotTheDevicesToTheCaller) {
     large.make = []() -> std::unique_ptr<Renderer<float>> {
         throw Error(ExitCode::limit, "too large a wall");
     };
-    EXPECT_THROW(Painting({large}, member("spare", 2)), Error);
+    EXPECT_EQ(refusal_of([&] { Painting painting({large}); }).exit_code, ExitCode::limit);
 }
 
 TEST(Crew, StopsWhileNobodyIsReady) {
@@ -223,7 +196,7 @@ TEST(Crew, StopsWhileNobodyIsReady) {
     Film<float> film(picture.width, picture.height);
     TileQueue queue(make_tiles(picture, 4, 5), stop);
     {
-        Crew<float> crew({slow, slow}, {}, {});
+        Crew<float> crew({slow, slow}, {});
         crew.open();
         std::thread later([&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -27,17 +27,6 @@ std::string message_of(std::exception_ptr failure) {
     }
 }
 
-/// Whether the device failed, rather than our caller.
-bool is_of_device(const std::exception_ptr& failure) {
-    try {
-        std::rethrow_exception(failure);
-    } catch (const Error& error) {
-        return error.exit_code() == ExitCode::device;
-    } catch (...) {
-        return false;
-    }
-}
-
 RendererTimes without(RendererTimes times, const RendererTimes& before) {
     times.trace -= before.trace;
     times.kernel -= before.kernel;
@@ -95,11 +84,8 @@ struct Crew<T>::Shared {
 };
 
 template <typename T>
-Crew<T>::Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Warn warn)
-    : shared_(std::make_shared<Shared>()),
-      spare_(std::move(spare)),
-      warn_(std::move(warn)),
-      is_single_(members.size() == 1) {
+Crew<T>::Crew(std::vector<CrewMember<T>> members, Warn warn)
+    : shared_(std::make_shared<Shared>()), warn_(std::move(warn)), is_single_(members.size() == 1) {
     for (CrewMember<T>& member : members) {
         shared_->slots.emplace_back().member = std::move(member);
     }
@@ -185,30 +171,23 @@ void Crew<T>::start(Slot& slot, std::unique_lock<std::mutex>& lock) {
     }
 }
 
-/// Warns of members that failed and, when none is left, starts the spare, or rethrows the last
-/// failure.
+/// Warns of members that failed; when none is left, rethrows the last failure. Requires the mutex.
 template <typename T>
-void Crew<T>::replace_failed(std::unique_lock<std::mutex>& lock) {
+void Crew<T>::note_failed() {
     const bool is_any_left = shared_->any_left();
-    const bool can_go_on = is_any_left || (spare_ && is_of_device(shared_->last_failure));
-    if (!can_go_on) std::rethrow_exception(shared_->last_failure);
     for (Slot& slot : shared_->slots) {
         if (slot.failure == nullptr || std::exchange(slot.has_warned, true)) continue;
-        warn_(message_of(slot.failure) + (is_any_left ? "; continuing without it" : ""));
+        if (!is_any_left && slot.failure == shared_->last_failure) continue;
+        warn_(message_of(slot.failure) + "; continuing without it");
     }
-    if (is_any_left) return;
-    warn_("rendering on threads instead");
-    Slot& slot = shared_->slots.emplace_back();
-    slot.member = *std::exchange(spare_, std::nullopt);
-    uses_spare_ = true;
-    start(slot, lock);
+    if (!is_any_left) std::rethrow_exception(shared_->last_failure);
 }
 
 template <typename T>
 void Crew<T>::open() {
     std::unique_lock lock(shared_->mutex);
     for (Slot& slot : shared_->slots) start(slot, lock);
-    while (!shared_->any_left()) replace_failed(lock);
+    note_failed();
 }
 
 template <typename T>
@@ -220,7 +199,7 @@ void Crew<T>::render(TileQueue& queue, const Rect& region, Film<T>& film) {
     shared.queue = &queue;
     shared.changed.notify_all();
     for (;;) {
-        replace_failed(lock);
+        note_failed();
         if (shared.working == 0 && !queue.has_tiles()) break;
         Slot& last = shared.slots.back();
         if (!last.thread.joinable() && shared.has_work(last)) {
@@ -250,9 +229,7 @@ RendererTimes Crew<T>::times() const {
     const std::scoped_lock lock(shared_->mutex);
     const Slot& last = shared_->slots.back();
     RendererTimes times;
-    if ((is_single_ || uses_spare_) && last.renderer) {
-        times = without(last.renderer->times(), last.before);
-    }
+    if (is_single_ && last.renderer) times = without(last.renderer->times(), last.before);
     times.check = last.check;
     if (!is_single_) times.trace = trace_seconds_;
     return times;
@@ -260,9 +237,7 @@ RendererTimes Crew<T>::times() const {
 
 template <typename T>
 DeviceStats Crew<T>::stats() const {
-    DeviceStats stats = shared_->slots.back().member.stats;
-    if (uses_spare_) stats.fallback_from = shared_->slots.front().member.name;
-    return stats;
+    return shared_->slots.front().member.stats;
 }
 
 template <typename T>

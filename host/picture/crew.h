@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,13 +35,13 @@ struct CrewMember {
 
 /// The renderers of one picture. A single one renders on the caller's thread. Several take tiles
 /// from the same queue, each on its own thread as soon as it is created; those still compiling
-/// delay nobody. One that fails is left out; when none is left the spare takes over.
+/// delay nobody. One that fails is left out.
 template <typename T>
 class Crew : public Renderer<T> {
    public:
     using Warn = std::function<void(const std::string& line)>;
 
-    Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Warn warn);
+    Crew(std::vector<CrewMember<T>> members, Warn warn);
     ~Crew() override;  ///< does not wait for members still being created
 
     /// Creates a single member; starts creating several. Throws like render.
@@ -51,18 +50,15 @@ class Crew : public Renderer<T> {
     /// Tiles that suit every member.
     TileSizes tile_sizes(int film_width) const override;
 
-    /// Throws Error when the last member fails and there is no spare.
+    /// Throws Error when the last member fails.
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override;
 
     RendererTimes times() const override;
 
-    /// Whether the spare had to take over.
-    bool uses_spare() const { return uses_spare_; }
-
-    /// The only member, or the spare that took over.
+    /// The first member.
     DeviceStats stats() const;
 
-    /// What each has done so far, in the given order, the spare last.
+    /// What each has done so far, in the given order.
     std::vector<DeviceShare> shares() const;
 
    private:
@@ -73,13 +69,11 @@ class Crew : public Renderer<T> {
     static void take_part(Shared& shared, Slot& slot, std::unique_lock<std::mutex>& lock);
     static void serve(const std::shared_ptr<Shared>& shared, Slot& slot);
     void start(Slot& slot, std::unique_lock<std::mutex>& lock);
-    void replace_failed(std::unique_lock<std::mutex>& lock);
+    void note_failed();
 
     std::shared_ptr<Shared> shared_;  ///< also held by the members' threads
-    std::optional<CrewMember<T>> spare_;
     Warn warn_;
     const bool is_single_;
-    bool uses_spare_ = false;
     double trace_seconds_ = 0;
 };
 
@@ -109,10 +103,6 @@ struct CrewMaker {
     /// A member for each device. An OpenCL device is opened (or reused), compiled and uploaded to,
     /// and tested by self_test; one that its driver could not list fails.
     std::vector<CrewMember<T>> members(const std::vector<DeviceChoice>& devices) const;
-
-    /// Threads that stand in for devices, some tiles of which may be finished: they cannot render
-    /// whole sample buffers, and the settings of packets are the devices'.
-    CrewMember<T> spare() const;
 
     SharedScene<T> scene;
     const RenderSettings& settings;

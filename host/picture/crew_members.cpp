@@ -75,13 +75,6 @@ std::vector<CrewMember<T>> CrewMaker<T>::members(const std::vector<DeviceChoice>
 }
 
 template <typename T>
-CrewMember<T> CrewMaker<T>::spare() const {
-    ThreadsOptions options{settings.threads, Schedule::tiles, settings.kernels};
-    options.kernels.lanes = 0;
-    return threads_member(options);
-}
-
-template <typename T>
 CrewMember<T> CrewMaker<T>::threads_member(const ThreadsOptions& options) const {
     const auto make = [scene = scene, options] {
         return make_threads_renderer<T>(*scene, options);

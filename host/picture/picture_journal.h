@@ -29,6 +29,9 @@ class PictureJournal {
     PictureJournal(const RenderSettings& settings, const RenderStats& stats,
                    const FlatScene<T>& scene, std::string_view inexact_devices, Say say);
 
+    /// Whether the file holds this picture, as far as it is saved.
+    bool has_begun() const { return file_ && file_->exists(); }
+
     /// Whether the journal has the whole picture.
     bool is_finished() const { return known_ && known_->is_finished; }
 

@@ -72,7 +72,7 @@ class Job {
         stats_.phases.flatten = watch.seconds();
         stats_.scene = figures.get();
         maker_.emplace(
-            CrewMaker<T>{scene_, settings, picture_.aa, cache.devices, events.driver_loaded});
+            CrewMaker<T>{scene_, settings_, picture_.aa, cache.devices, events.driver_loaded});
         stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
@@ -93,7 +93,7 @@ class Job {
         if (journal_->is_finished()) {
             film_ = journal_->take_film();
             tile_ = final_tile;
-            stats_.device = stats_of({maker_->members(devices), {}, warn_}, devices);
+            stats_.device = stats_of({maker_->members(devices), warn_}, devices);
         } else {
             render_by(devices);
         }
@@ -119,20 +119,16 @@ class Job {
     }
 
     void render_by(const Devices& devices) {
-        std::optional<CrewMember<T>> spare;
-        if (is_exact_ && !settings_.no_fallback && has_opencl(devices)) spare = maker_->spare();
-        Crew<T> crew(maker_->members(devices), std::move(spare), warn_);
+        Crew<T> crew(maker_->members(devices), warn_);
         try {
             if (events_.opening && has_opencl(devices)) events_.opening(joined_names(devices));
             crew.open();
             render_with(crew, joined_names(devices));
         } catch (const Error& error) {
-            const bool can_start_over = !is_exact_ && !settings_.no_fallback && has_opencl(devices);
-            if (!can_start_over || error.exit_code() != ExitCode::device) throw;
+            const bool can_replace = !settings_.no_fallback && has_opencl(devices);
+            if (!can_replace || error.exit_code() != ExitCode::device) throw;
             warn_(error.what());
-            warn_("rendering all of it on threads instead, which may round differently");
-            render_again(joined_names(devices), crew.shares());
-            return;
+            return replace(joined_names(devices), crew.shares());
         }
         stats_.shares = crew.shares();
         stats_.device = stats_of(crew, devices);
@@ -140,23 +136,24 @@ class Job {
 
     /// Of several devices, only their names.
     static DeviceStats stats_of(const Crew<T>& crew, const Devices& devices) {
-        if (devices.size() == 1 || crew.uses_spare()) return crew.stats();
+        if (devices.size() == 1) return crew.stats();
         DeviceStats stats;
         stats.name = joined_names(devices);
         return stats;
     }
 
-    /// Renders the whole picture on threads, in place of devices that did these shares of it.
-    void render_again(const std::string& devices, std::vector<DeviceShare> shares) {
-        journal_->discard();
+    /// Has threads render what the journal lacks, in place of devices that did these shares. It
+    /// lacks everything where the devices may round differently.
+    void replace(const std::string& devices, std::vector<DeviceShare> shares) {
+        warn_("rendering on threads instead");
+        settings_.kernels.lanes = 0;  // was for the devices
+        if (journal_->has_begun()) settings_.fresh = false;
+        film_ = Film<T>(0, 0);  // makes room for the journal's
         journal_.emplace(settings_, stats_, *scene_, "", warn_);
-        Crew<T> threads({maker_->spare()}, {}, {});
-        threads.open();
-        stats_.resumed = 0;
-        render_with(threads, "threads");
-        shares.push_back(threads.shares().front());
+        stats_.resumed = journal_->share_known();
+        render_by({threads_choice()});
+        shares.push_back(stats_.shares.front());
         stats_.shares = std::move(shares);
-        stats_.device = threads.stats();
         stats_.device.fallback_from = devices;
     }
 
@@ -229,14 +226,12 @@ class Job {
                                : has_opencl(devices) ? stats_.device.name + " or the journal"
                                                      : "the journal";
         const std::string what = by + ": " + wrong;
-        if (settings_.no_fallback) {
-            journal_->discard();
-            throw Error(ExitCode::device, what);
-        }
-        warn_(what + "; rendering on threads instead");
+        journal_->discard();
+        if (settings_.no_fallback) throw Error(ExitCode::device, what);
+        warn_(what);
         std::vector<DeviceShare> shares = stats_.shares;
         if (shares.size() == 1) shares.front().failure = wrong;
-        render_again(by, std::move(shares));
+        replace(by, std::move(shares));
     }
 
     /// Estimates the picture's error, and looks for a mode that reaches the target, on as many
@@ -275,7 +270,7 @@ class Job {
         return rendered;
     }
 
-    const RenderSettings& settings_;
+    RenderSettings settings_;
     const RenderEvents& events_;
     const StopFlag& stop_;
     ErrorControl& control_;

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """A device returns errors in the middle of a picture."""
 import json
+import os
 
 from driver_case import SCENE, WrongDriver
 
 
 class Fails(WrongDriver):
-    """A device that fails in the middle leaves what it finished, and threads do the rest."""
+    """A device that fails in the middle leaves what it finished in the journal, and threads do the rest."""
     ARGUMENTS = ["render", SCENE, "--stats=json", "-q", "--size", "300", "--device"]
     TILES = ["--tile", "100x10", "--aa", "grid:4"]  # several launches
 
@@ -17,6 +18,7 @@ class Fails(WrongDriver):
     def finished_before(self, launches, *arguments):
         """The pixels that the device had finished when each of these launches failed."""
         right, finished = self.figures({}, "threads", *arguments), []
+        arguments += ("--resume", "-o", str(self.folder / "out.pfm"))
         for launch in launches:
             got = self.figures({"CL_SHIM_FAIL_LAUNCH": str(launch)}, "pocl", *arguments)
             self.assertEqual(got["image"]["hash"], right["image"]["hash"])
@@ -29,6 +31,8 @@ class Fails(WrongDriver):
             self.assertEqual(got["device"]["fallback_from"], device["name"])
             self.assertIn("CL_OUT_OF_RESOURCES", device["failure"])
             self.assertEqual(device["pixels"] + threads["pixels"], 300 * 300)
+            self.assertAlmostEqual(got.get("resumed", 0), 1 - share)
+            self.assertEqual(os.listdir(self.folder), ["out.pfm"])
             finished.append(device["pixels"])
         return finished
 
@@ -46,6 +50,7 @@ class Fails(WrongDriver):
         got, right = self.figures(shim, "pocl", *picture), self.figures({}, "threads", *picture)
         device, threads = got["devices"]
         self.assertGreater(device["pixels"], 0)
+        self.assertEqual(threads["pixels"], 300 * 300)  # there is no journal
         self.assertEqual(got["rays"]["primary"], threads["pixels"] * 16 * 16)
         self.assertEqual(got["image"]["hash"], right["image"]["hash"])
 
@@ -84,6 +89,18 @@ class Fails(WrongDriver):
         self.assertEqual(got["image"]["hash"], right["image"]["hash"])
         self.assertEqual(got["device"]["fallback_from"], got["devices"][0]["name"])
         self.assertIn("CL_OUT_OF_RESOURCES", got["devices"][0]["failure"])
+
+    def test_in_a_share_that_began_anew(self):
+        """What it finished is in the journal, whatever was there before."""
+        part = str(self.folder / "part.mbj")
+        share = ["--shard", "0/1", "--fresh", "-o", part, *self.TILES]
+        for _ in range(2):
+            got = self.figures({"CL_SHIM_FAIL_LAUNCH": "8"}, "pocl", *share)
+            device, threads = got["devices"]
+            self.assertGreater(device["pixels"], 0)
+            self.assertEqual(device["pixels"] + threads["pixels"], 300 * 300)
+        right = self.figures({}, "threads", *self.TILES)["image"]["hash"]
+        self.assertIn(right, self.run_with({}, "merge", part, code=0).stderr)
 
     def test_is_an_error_without_fallback(self):
         self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, *self.ARGUMENTS, "pocl", "--no-fallback", code=5)

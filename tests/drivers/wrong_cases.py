@@ -142,7 +142,7 @@ class Wrong(WrongDriver):
             shim = dict(shim, CL_SHIM_FAIL_LAUNCH=launch)
             for device in ["pocl", "pocl,0"]:
                 found, said = self.hash_of(0, *render, device, shim=shim)
-                self.assertIn("rendering all of it on threads", said)
+                self.assertIn("rendering on threads instead", said)
                 self.assertEqual(found, right)
             figures = json.loads(self.run_with(shim, *render, "pocl", "--stats=json").stdout)
             self.assertGreater(figures["devices"][0]["pixels"], 0)
