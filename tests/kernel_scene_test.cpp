@@ -20,26 +20,35 @@ using Hit = ProbeHit<T>;
 /// primitives.
 template <typename T>
 struct AllHits {
-    std::vector<Hit<T>> hits;  ///< by ray, then by primitive
-    std::size_t primitives;
+    std::vector<std::vector<T>> distances;  ///< by primitive, then by ray
 
-    AllHits(const FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays)
-        : primitives(scene.spheres.size() + scene.triangles.size()) {
-        std::vector<ProbeRay<T>> ray_of_item;
-        std::vector<Index<T>> prim_of_item;
-        for (const auto& ray : rays) {
-            for (std::size_t prim = 0; prim < primitives; ++prim) {
-                ray_of_item.push_back(ray);
-                prim_of_item.push_back(static_cast<Index<T>>(prim));
+    AllHits(const FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays) {
+        const std::size_t count = rays.size();
+        for (const auto& sphere : scene.spheres) {
+            auto own = rays;  // the probe's spheres are numbered like its rays
+            for (std::size_t i = 0; i < count; ++i) {
+                own[i].from = leaves_next(rays[i]) ? static_cast<Index<T>>(i) : Flat<T>::none;
             }
+            distances.push_back(
+                run<T, T>("intersect_sphere", count, own, std::vector(count, sphere)));
         }
-        hits = run<T, Hit<T>>("intersect_primitive", ray_of_item.size(), scene, ray_of_item,
-                              prim_of_item);
+        for (const auto& triangle : scene.triangles) {
+            const auto hits =
+                run<T, Hit<T>>("intersect_triangle", count, rays, std::vector(count, triangle));
+            std::vector<T> own;
+            for (std::size_t i = 0; i < count; ++i)
+                own.push_back(leaves_next(rays[i]) ? -1 : hits[i].t);
+            distances.push_back(own);
+        }
     }
-    T distance(std::size_t ray, std::size_t prim) const { return hits[ray * primitives + prim].t; }
+    /// Whether it leaves the primitive that is tested next.
+    bool leaves_next(const ProbeRay<T>& ray) const {
+        return ray.from == static_cast<Index<T>>(distances.size());
+    }
+    T distance(std::size_t ray, std::size_t prim) const { return distances[prim][ray]; }
     /// The lowest index hit within (0, limit], or none.
     Index<T> first_within(std::size_t ray, T limit) const {
-        for (std::size_t prim = 0; prim < primitives; ++prim) {
+        for (std::size_t prim = 0; prim < distances.size(); ++prim) {
             const T t = distance(ray, prim);
             if (t > 0 && t <= limit) return static_cast<Index<T>>(prim);
         }
@@ -47,7 +56,7 @@ struct AllHits {
     }
     T nearest(std::size_t ray) const {
         T best = std::numeric_limits<T>::infinity();
-        for (std::size_t prim = 0; prim < primitives; ++prim) {
+        for (std::size_t prim = 0; prim < distances.size(); ++prim) {
             const T t = distance(ray, prim);
             if (t > 0 && t < best) best = t;
         }
@@ -55,26 +64,6 @@ struct AllHits {
     }
     T tie(std::size_t ray) const { return nearest(ray) * (1 + 32 * Flat<T>::roundoff); }
 };
-
-KERNEL_SUITE(IntersectPrimitive);
-TYPED_TEST(IntersectPrimitive, CountsSpheresFirstAndSkipsTheTriangleItLeaves) {
-    FlatScene<TypeParam> scene{};
-    scene.spheres = {make_sphere<TypeParam>({0, 0, -5}, 1)};
-    scene.triangles = {make_triangle<TypeParam>({-1, -1, -3}, {3, -1, -3}, {-1, 3, -3})};
-    count_primitives(scene);
-    auto ray = make_ray<TypeParam>({0, 0, 0}, {0, 0, -1});
-    std::vector<ProbeRay<TypeParam>> rays(4, ray);
-    rays[2].from = 1;
-    rays[3].from = 0;
-    rays[3].origin = {0, 0, -4};
-    rays[3].self_hit = 2;
-    const std::vector<Index<TypeParam>> prims{0, 1, 1, 0};
-    const auto hits = run<TypeParam, Hit<TypeParam>>("intersect_primitive", 4, scene, rays, prims);
-    EXPECT_EQ(hits[0].t, 4);
-    EXPECT_EQ(hits[1].t, 3);
-    EXPECT_EQ(hits[2].t, -1);
-    EXPECT_EQ(hits[3].t, 2);  // through the sphere it stands on
-}
 
 KERNEL_SUITE(ClosestHit);
 TYPED_TEST(ClosestHit, IsTheLowestIndexAmongTheNearest) {

@@ -12,33 +12,6 @@ Materials probe_materials(const SceneView* scene, const Surface* surface) {
     return materials_of(scene, surface->material, RT_ALL_LANES);
 }
 
-// Distance to primitive prims[i] alone.
-__kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                        __global const Index* prims, __global ProbeHit* out) {
-    PROBE_PACKET;
-    Ray ray = RAYS(rays);
-    RayShear shear = make_shear(&ray, RT_ALL_LANES);
-    Hit hit = no_hit();
-    hit.prim = INDICES(prims);
-    PROBE_EACH_LANE {
-        Index prim = prims[THIS_ITEM];
-        Index cone = prim - params->sphere_count;
-        Index triangle = cone - params->cone_count;
-        Reals t = (Reals)0, far, u, v;
-        Mask met = THIS_LANE;
-        if (cone < 0) {
-            met &= intersect_sphere(&ray, &spheres[prim], prim, &t);
-        } else if (triangle < 0) {
-            met &= intersect_cone(&ray, &cones[cone], ray.from == prim, &t, &far);
-        } else {
-            met &= intersect_triangle(&shear, &triangles[triangle], &t, &u, &v);
-            met &= ray.from != prim;
-        }
-        hit.t = met ? t : hit.t;
-    }
-    PUT_HIT(out, hit);
-}
-
 __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                 __global ProbeHit* out) {
     PROBE_SCENE_PACKET;
