@@ -25,7 +25,6 @@ struct SelftestOptions {
     ResultFiles results;
     std::string expect;  ///< file of checks that are known to fail; empty: none
     bool quick = false;
-    bool write_golden = false;
     bool quiet = false;
 };
 
@@ -43,10 +42,6 @@ std::vector<DeviceChoice> chosen_devices(const std::vector<std::string>& specs) 
 }
 
 int run_selftest(const SelftestOptions& options) {
-    if (options.write_golden) {
-        print_result(write_golden_pictures() + "\n");
-        return 0;
-    }
     options.results.check({options.expect}, {});
     const Stopwatch watch;
     Checks checks(options.filters, known_failures(options.expect));
@@ -93,8 +88,6 @@ void add_selftest(Verb& program, const Invocation&) {
     selftest.results.add(verb, "--json", json_start("selftest"),
                          "write JSON, to FILE or to stdout");
     selftest.results.add(verb, "--junit", "<?xml", "write JUnit's XML, to FILE or to stdout");
-    verb.flag("--write-golden", selftest.write_golden,
-              "render the golden pictures on threads and write scenes/golden.json (maintainers)");
     add_build_extras(verb);
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
     verb.measures = true;

@@ -5,12 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <span>
 
 #include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/base/hash.h"
-#include "host/image/output_file.h"
 #include "host/picture/crew.h"
 #include "host/process/stop_signal.h"
 #include "host/record/record.h"
@@ -138,20 +136,6 @@ void check_pictures(Checks& checks, const DeviceChoice& device, const std::strin
         if (!quick) run("own-features", picture, own);
         run("samples", picture, samples);
     }
-}
-
-std::string write_golden_pictures() {
-    RenderCache cache;
-    Hashes hashes;
-    for (const GoldenPicture& picture : golden_pictures()) {
-        hashes[picture.name()] = hash_text(
-            render_golden(picture, threads_choice(), all_features(), &cache).stats.image_hash);
-    }
-    const std::string file = scenes_folder() / "golden.json";
-    const std::string text = json_text(
-        {{"format", "mirrorball-golden"}, {"version", 1}, {"width", width}, {"pictures", hashes}});
-    write_file_atomically(file, std::as_bytes(std::span(text)));
-    return file;
 }
 
 }  // namespace rt

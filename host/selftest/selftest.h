@@ -164,9 +164,6 @@ Scene golden_scene(const GoldenPicture& picture);
 RenderedPicture render_golden(const GoldenPicture& picture, const DeviceChoice& device,
                               const KernelChoice& kernels, RenderCache* cache);
 
-/// Renders all on threads, writes scenes/golden.json and returns its name.
-std::string write_golden_pictures();
-
 // What `selftest` checks on a device. `prefix`: of the names; `quick`: what takes some 20 s with a
 // cold kernel cache.
 void check_functions(Checks& checks, const ClDevice& device, const std::string& prefix, bool quick);
