@@ -88,6 +88,21 @@ void resolve_item(__global Real* film, __global const Real* samples, const Launc
                 RT_LANES);
 }
 
+#if RT_RENDERS_ADAPTIVE || RT_RENDERS_EDGES
+// One round of an adaptive or edges mode over a packet.
+RayCounts round_item(__global Real* film, __global Real* planes, SceneView* scene, const Tile* tile,
+                     Index round, Index item) {
+#if RT_RENDERS_EDGES
+    if (!RT_RENDERS_ADAPTIVE || scene->params.tolerance > (Real)0) {
+        return edges_item(film, planes, scene, tile, round, item);
+    }
+#endif
+#if RT_RENDERS_ADAPTIVE
+    return adaptive_item(film, planes, scene, tile, round, item);
+#endif
+}
+#endif
+
 #if defined(__clang__) && __clang_major__ >= 12
 #pragma clang attribute pop
 #pragma clang attribute pop

@@ -65,35 +65,18 @@ __kernel void render_centers(__global Real* restrict planes, __global RayCounts*
                              RT_SCENE_ARGUMENTS, Tile tile) {
     one_of_centers(planes, counts, RT_SCENE_NAMES, tile, get_global_id(0));
 }
-#endif
 
-#if RT_RENDERS_ADAPTIVE
-static RT_ITEM void one_of_adaptive(__global Real* film, __global RayCounts* counts,
-                                    RT_SCENE_PARAMETERS, Tile tile, __global Real* planes,
-                                    Index round, size_t item) {
-    SceneView scene = RT_SCENE_VIEW;
-    add_counts(counts, item, adaptive_item(film, planes, &scene, &tile, round, (Index)item));
-}
-
-__kernel void render_adaptive(__global Real* restrict film, __global RayCounts* restrict counts,
-                              RT_SCENE_ARGUMENTS, Tile tile, __global Real* restrict planes,
-                              Index round) {
-    one_of_adaptive(film, counts, RT_SCENE_NAMES, tile, planes, round, get_global_id(0));
-}
-#endif
-
-#if RT_RENDERS_EDGES
-static RT_ITEM void one_of_edges(__global Real* film, __global RayCounts* counts,
+static RT_ITEM void one_of_round(__global Real* film, __global RayCounts* counts,
                                  RT_SCENE_PARAMETERS, Tile tile, __global Real* planes, Index round,
                                  size_t item) {
     SceneView scene = RT_SCENE_VIEW;
-    add_counts(counts, item, edges_item(film, planes, &scene, &tile, round, (Index)item));
+    add_counts(counts, item, round_item(film, planes, &scene, &tile, round, (Index)item));
 }
 
-__kernel void render_edges(__global Real* restrict film, __global RayCounts* restrict counts,
+__kernel void render_round(__global Real* restrict film, __global RayCounts* restrict counts,
                            RT_SCENE_ARGUMENTS, Tile tile, __global Real* restrict planes,
                            Index round) {
-    one_of_edges(film, counts, RT_SCENE_NAMES, tile, planes, round, get_global_id(0));
+    one_of_round(film, counts, RT_SCENE_NAMES, tile, planes, round, get_global_id(0));
 }
 #endif
 

@@ -86,10 +86,10 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     options.entries = {false, true, false};
     EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples;sum_counts");
     options.entries = {false, false, false, true};
-    EXPECT_EQ(entry_points_of(options), "render_centers;render_adaptive;sum_counts");
+    EXPECT_EQ(entry_points_of(options), "render_centers;render_round;sum_counts");
     options.entries = {false, false, false, false, true};
     options.features[feature::edges] = true;
-    EXPECT_EQ(entry_points_of(options), "render_centers;render_edges;sum_counts");
+    EXPECT_EQ(entry_points_of(options), "render_centers;render_round;sum_counts");
 }
 
 TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {

@@ -60,7 +60,7 @@ class GpuCode(unittest.TestCase):
     def test_compiles_without_warnings(self):
         for gpu in GPUS:
             for options in PRECISIONS.values():
-                for entry in "render_pixels", "render_samples", "render_adaptive", "resolve_samples", "sum_counts", "trace_rays":
+                for entry in "render_pixels", "render_samples", "render_round", "resolve_samples", "sum_counts", "trace_rays":
                     self.assertRegex(compiled(gpu, *options), rf"\b{entry}\b")
 
     def test_old_compilers_get_no_pragma_of_newer_ones(self):

@@ -22,7 +22,7 @@ int rt_switches[13];
                        const rt::f32::Tile*, rt::f32::Index, rt::f32::Index);       \
     void name##_centers(float*, rt::f32::RayCounts*, const rt::NativeView<float>*,  \
                         const rt::f32::Tile*, rt::f32::Index, rt::f32::Index);      \
-    void name##_edges(float*, rt::f32::RayCounts*, const rt::NativeView<float>*,    \
+    void name##_round(float*, rt::f32::RayCounts*, const rt::NativeView<float>*,    \
                       const rt::f32::Tile*, float*, rt::f32::Index, rt::f32::Index, \
                       rt::f32::Index)
 DECLARE_SWITCHABLE(rt_switchable_1);
@@ -33,10 +33,10 @@ namespace rt::test::this_file {
 namespace {
 
 /// With the entry points that are called here.
-#define SWITCHABLE(lanes)                                                          \
-    {                                                                              \
-        "", lanes, {}, lanes, 0, rt_switchable_##lanes##_pixels, {}, {}, {},       \
-            rt_switchable_##lanes##_centers, {}, rt_switchable_##lanes##_edges, {} \
+#define SWITCHABLE(lanes)                                                      \
+    {                                                                          \
+        "", lanes, {}, lanes, 0, rt_switchable_##lanes##_pixels, {}, {}, {},   \
+            rt_switchable_##lanes##_centers, rt_switchable_##lanes##_round, {} \
     }
 const NativeKernels<float> single SWITCHABLE(1), packets SWITCHABLE(8);
 

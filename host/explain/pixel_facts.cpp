@@ -35,7 +35,6 @@ auto counts_of(const NativeKernels<T>& kernels, const NativeView<T>& view, const
     typename Flat<T>::RayCounts ignored{};
     kernels.render_centers(planes.data(), &ignored, &view, &tile, 0,
                            wide.width * wide.height);  // packets of a pixel, or more
-    const auto render = round_kernel(kernels, view.params);
     // Row by row, each of which has one pixel that is not in the margin.
     const int rounds = round_count(view.params);
     for (int round = 0; round < rounds; ++round) {
@@ -43,8 +42,8 @@ auto counts_of(const NativeKernels<T>& kernels, const NativeView<T>& view, const
         const Index across = (1 + 2 * around + kernels.lanes - 1) / kernels.lanes;
         for (Index row = 0; row < strip.height + 2 * around; ++row) {
             const auto i = static_cast<std::size_t>(row - around);  // huge in the margin above
-            render(film.data(), i < height ? &counts[i] : &ignored, &view, &tile, planes.data(),
-                   round, row * across, (row + 1) * across);
+            kernels.render_round(film.data(), i < height ? &counts[i] : &ignored, &view, &tile,
+                                 planes.data(), round, row * across, (row + 1) * across);
         }
     }
     return counts;

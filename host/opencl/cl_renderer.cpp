@@ -275,8 +275,7 @@ class ClRenderer : public Renderer<T> {
                                                         : "render_pixels");
         set_scene_arguments(render_, params_);
         if (in_rounds()) {
-            round_ =
-                cl::Kernel(program, params_.tolerance > 0 ? "render_edges" : "render_adaptive");
+            round_ = cl::Kernel(program, "render_round");
             set_scene_arguments(round_, params_);
         }
         if (launch_samples_) {

@@ -51,8 +51,8 @@ struct EntryPoints {
     bool pixels = true;     ///< render_pixels
     bool samples = true;    ///< render_samples and resolve_samples
     bool rays = true;       ///< trace_rays
-    bool adaptive = false;  ///< render_centers and render_adaptive
-    bool edges = false;     ///< render_centers and render_edges
+    bool adaptive = false;  ///< render_centers and render_round
+    bool edges = false;     ///< likewise, in an edges mode
 };
 
 /// What a program is compiled for. `features` says what may be left out.

@@ -14,17 +14,16 @@
 // The entry points of every variant, as native.cl declares them; the weak ones are not in all.
 #define RT_DECLARE_ENTRY(T, name, field) \
     std::remove_pointer_t<decltype(rt::NativeKernels<T>::field)> name
-#define RT_DECLARE_NATIVE(T, name)                                               \
-    extern "C" {                                                                 \
-    extern const int name##_traits[3];                                           \
-    RT_DECLARE_ENTRY(T, name##_pixels, render_pixels);                           \
-    RT_DECLARE_ENTRY(T, name##_samples, render_samples);                         \
-    RT_DECLARE_ENTRY(T, name##_resolve, resolve_samples);                        \
-    RT_DECLARE_ENTRY(T, name##_list, render_list);                               \
-    RT_DECLARE_ENTRY(T, name##_centers, render_centers) __attribute__((weak));   \
-    RT_DECLARE_ENTRY(T, name##_adaptive, render_adaptive) __attribute__((weak)); \
-    RT_DECLARE_ENTRY(T, name##_edges, render_edges) __attribute__((weak));       \
-    RT_DECLARE_ENTRY(T, name##_rays, trace_rays) __attribute__((weak));          \
+#define RT_DECLARE_NATIVE(T, name)                                             \
+    extern "C" {                                                               \
+    extern const int name##_traits[3];                                         \
+    RT_DECLARE_ENTRY(T, name##_pixels, render_pixels);                         \
+    RT_DECLARE_ENTRY(T, name##_samples, render_samples);                       \
+    RT_DECLARE_ENTRY(T, name##_resolve, resolve_samples);                      \
+    RT_DECLARE_ENTRY(T, name##_list, render_list);                             \
+    RT_DECLARE_ENTRY(T, name##_centers, render_centers) __attribute__((weak)); \
+    RT_DECLARE_ENTRY(T, name##_round, render_round) __attribute__((weak));     \
+    RT_DECLARE_ENTRY(T, name##_rays, trace_rays) __attribute__((weak));        \
     }
 #define RT_DECLARE_FLOAT(name, isa, lanes) RT_DECLARE_NATIVE(float, name)
 #define RT_DECLARE_DOUBLE(name, isa, lanes) RT_DECLARE_NATIVE(double, name)
@@ -46,8 +45,7 @@ namespace {
      name##_resolve,                                    \
      name##_list,                                       \
      name##_centers,                                    \
-     name##_adaptive,                                   \
-     name##_edges,                                      \
+     name##_round,                                      \
      name##_rays},
 
 template <typename T>

@@ -49,10 +49,7 @@ struct NativeKernels {
                         Index first, Index end);
     /// Null where a number of samples is compiled in.
     void (*render_centers)(T* planes, Counts*, const View*, const Tile*, Index first, Index end);
-    void (*render_adaptive)(T* film, Counts*, const View*, const Tile*, T* planes, Index round,
-                            Index first, Index end);
-    /// Null unless edges are compiled in.
-    void (*render_edges)(T* film, Counts*, const View*, const Tile*, T* planes, Index round,
+    void (*render_round)(T* film, Counts*, const View*, const Tile*, T* planes, Index round,
                          Index first, Index end);
     /// Null unless all features are compiled in.
     void (*trace_rays)(typename Flat<T>::RayAnswer*, const typename Flat<T>::RayQuery*, const View*,

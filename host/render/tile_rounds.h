@@ -73,11 +73,6 @@ std::size_t plane_values(const Params& params, const FlatTile& tile, int lanes) 
 /// A guess of a pixel's samples, for how much to do at a time.
 inline constexpr int round_samples_guess = 8;
 
-template <typename T, typename Params>
-auto round_kernel(const NativeKernels<T>& kernels, const Params& params) {
-    return params.tolerance > 0 ? kernels.render_edges : kernels.render_adaptive;
-}
-
 /// Renders a tile on this thread; false if stopped before the last pixel. `planes` is scratch
 /// memory. Counts the rays, but not the samples at the pixels' centers.
 template <typename T, typename IsStopped>
@@ -95,15 +90,14 @@ bool render_tile_in_rounds(const NativeKernels<T>& kernels, const NativeView<T>&
         kernels.render_centers(planes.data(), &counts, &view, &tile, row * packets,
                                (row + 1) * packets);
     }
-    const auto render = round_kernel(kernels, view.params);
     const int rounds = round_count(view.params);
     for (int round = 0; round < rounds; ++round) {
         const auto seen = size_with_margin(tile, rounds - 1 - round);
         const Index across = (seen.width + kernels.lanes - 1) / kernels.lanes;
         for (Index row = 0; row < seen.height; ++row) {
             if (is_stopped()) return false;
-            render(film, &counts, &view, &tile, planes.data(), round, row * across,
-                   (row + 1) * across);
+            kernels.render_round(film, &counts, &view, &tile, planes.data(), round, row * across,
+                                 (row + 1) * across);
         }
     }
     return true;

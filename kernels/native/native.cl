@@ -65,21 +65,11 @@ void RT_NATIVE(_centers)(__global Real* planes, __global RayCounts* counts, cons
                          const Tile* tile, Index first, Index end) {
     RT_FOR_ITEMS(centers_item(planes, &scene, tile, item));
 }
-#endif
 
-#if RT_RENDERS_ADAPTIVE
-void RT_NATIVE(_adaptive)(__global Real* film, __global RayCounts* counts, const SceneView* view,
-                          const Tile* tile, __global Real* planes, Index round, Index first,
-                          Index end) {
-    RT_FOR_ITEMS(adaptive_item(film, planes, &scene, tile, round, item));
-}
-#endif
-
-#if RT_RENDERS_EDGES
-void RT_NATIVE(_edges)(__global Real* film, __global RayCounts* counts, const SceneView* view,
+void RT_NATIVE(_round)(__global Real* film, __global RayCounts* counts, const SceneView* view,
                        const Tile* tile, __global Real* planes, Index round, Index first,
                        Index end) {
-    RT_FOR_ITEMS(edges_item(film, planes, &scene, tile, round, item));
+    RT_FOR_ITEMS(round_item(film, planes, &scene, tile, round, item));
 }
 #endif
 
