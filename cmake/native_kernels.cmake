@@ -76,15 +76,15 @@ endif()
 # What a set of features leaves out, the leanest set first: a scene takes the first that holds all it
 # needs. `plain` is the paper's scene, `mesh` a model among mirror balls; with _4 where a pixel has 4
 # samples, with _edges for Sobol samples and edges. Single rays are traced by `all` alone.
-set(NATIVE_MESH -DRT_TRACES_RAYS=0 -DRT_HAS_HUGE_SPHERES=0 -DRT_HAS_EYE_ON_SURFACE=0 -DRT_HAS_CONES=0
-    -DRT_HAS_GLASS=0 -DRT_HAS_FILTERS=0)
-set(NATIVE_PLAIN ${NATIVE_MESH} -DRT_HAS_VERTEX_NORMALS=0 -DRT_HAS_HIERARCHY=0)
-set(NATIVE_GRID -DRT_HAS_SOBOL=0 -DRT_HAS_EDGES=0)
-set(plain_4_FLAGS ${NATIVE_PLAIN} ${NATIVE_GRID} -DRT_SAMPLES=4)
-set(plain_FLAGS ${NATIVE_PLAIN} ${NATIVE_GRID})
+set(NATIVE_MESH -DRT_TRACES_RAYS=0
+    -DRT_FEATURE_BITS=0x1fff&~RT_HUGE_SPHERES&~RT_EYE_ON_SURFACE&~RT_CONES&~RT_GLASS&~RT_FILTERS)
+set(NATIVE_PLAIN ${NATIVE_MESH}&~RT_VERTEX_NORMALS&~RT_HIERARCHY)
+set(NATIVE_GRID "&~RT_SOBOL&~RT_EDGES")
+set(plain_4_FLAGS ${NATIVE_PLAIN}${NATIVE_GRID} -DRT_SAMPLES=4)
+set(plain_FLAGS ${NATIVE_PLAIN}${NATIVE_GRID})
 set(plain_edges_FLAGS ${NATIVE_PLAIN})
-set(mesh_4_FLAGS ${NATIVE_MESH} ${NATIVE_GRID} -DRT_SAMPLES=4)
-set(mesh_FLAGS ${NATIVE_MESH} ${NATIVE_GRID})
+set(mesh_4_FLAGS ${NATIVE_MESH}${NATIVE_GRID} -DRT_SAMPLES=4)
+set(mesh_FLAGS ${NATIVE_MESH}${NATIVE_GRID})
 set(mesh_edges_FLAGS ${NATIVE_MESH})
 set(all_FLAGS "")
 

@@ -49,7 +49,7 @@ bool is_one_way(Reals v, Mask live, bool* positive) {
 Traversal begin_traversal(const Ray* ray, Mask live) {
     Traversal traversal;
     traversal.size = 0;
-    if (RT_HAS_HIERARCHY) {
+    if (RT_HAS(HIERARCHY)) {
         real3 inverse = make3(finite_inverse(ray->dir.x), finite_inverse(ray->dir.y),
                               finite_inverse(ray->dir.z));
         real3 size = abs3(ray->origin);
@@ -87,7 +87,7 @@ void enter_kind(Traversal* traversal, Index root, Index count, __global const vo
     traversal->prim_size = prim_size;
     traversal->whole = count;
     traversal->size = 2;
-    if (RT_HAS_HIERARCHY) {
+    if (RT_HAS(HIERARCHY)) {
         traversal->stack[0] = RT_NONE;
         traversal->stack[1] = root;
     }
@@ -166,8 +166,8 @@ bool next_range(Traversal* traversal, __global const BvhNode* nodes, Reals t_max
                 Index* end) {
     traversal->size -= 1;
     // Without hierarchies the stack would hold RT_NONE and 0.
-    Index place = RT_HAS_HIERARCHY ? traversal->stack[traversal->size] : traversal->size - 1;
-    while (RT_HAS_HIERARCHY && place > 0) {
+    Index place = RT_HAS(HIERARCHY) ? traversal->stack[traversal->size] : traversal->size - 1;
+    while (RT_HAS(HIERARCHY) && place > 0) {
         __global const BvhNode* node = &nodes[place];
         if (node->count > 0) {
             *first = node->first;

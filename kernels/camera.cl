@@ -27,7 +27,7 @@ Ray position_ray(const LaunchParams* params, Indices x, Indices y, Position offs
     ray.dir = scale3(inverse, through);
     ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
     ray.origin_low = ray.dir_low;
-    if (RT_HAS_SPHERES) {
+    if (RT_HAS(SPHERES)) {
         real3 low = add_scaled(load3(params->direction_low), sx, load3(params->direction_dx_low));
         low = add_scaled(low, sy, load3(params->direction_dy_low));
         low = add3(low, fma_error3(direction, sx, dx, across));

@@ -20,7 +20,7 @@ Indices side_of(const Surface* surface, real3 dir) {
 Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
                      Reals u, Reals v, Index prim) {
     Mask skipped = RT_NO_LANES;
-    if (RT_HAS_GLASS && search->has_zones) {
+    if (RT_HAS(GLASS) && search->has_zones) {
         Mask near = met & (t > (Reals)0) & (t <= ray->zone);
         if (any_lane(near)) {
             Hit hit = {t, u, v, (Indices)prim, RT_NO_LANES};
@@ -41,7 +41,7 @@ void offer_curved(const SceneView* scene, const Ray* ray, Search* search, Mask m
     const Reals none = (Reals)0;
     Mask crossed = offer_uncrossed(scene, ray, search, met, t, none, none, prim);
     crossed &= far > t;
-    if (RT_HAS_GLASS && any_lane(crossed)) {
+    if (RT_HAS(GLASS) && any_lane(crossed)) {
         offer_uncrossed(scene, ray, search, crossed, far, none, none, prim);
     }
 }
@@ -90,7 +90,7 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
             if (!any_lane(met)) continue;
             Index prim = first_triangle(scene) + i;
             met &= ray->from != prim;
-            if (RT_HAS_EYE_ON_SURFACE && scene->triangles[i].plane == (Real)0) {
+            if (RT_HAS(EYE_ON_SURFACE) && scene->triangles[i].plane == (Real)0) {
                 met &= ray->from != RT_EYE;
             }
             offer_uncrossed(scene, ray, search, met, t, u, v, prim);
@@ -100,9 +100,9 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
 
 void search_all(const SceneView* scene, const Ray* ray, const RayShear* shear, Search* search) {
     Traversal traversal = begin_traversal(ray, search->limit > (Reals)0);
-    if (RT_HAS_SPHERES) search_spheres(scene, ray, &traversal, search);
-    if (RT_HAS_CONES) search_cones(scene, ray, &traversal, search);
-    if (RT_HAS_TRIANGLES) search_triangles(scene, ray, shear, &traversal, search);
+    if (RT_HAS(SPHERES)) search_spheres(scene, ray, &traversal, search);
+    if (RT_HAS(CONES)) search_cones(scene, ray, &traversal, search);
+    if (RT_HAS(TRIANGLES)) search_triangles(scene, ray, shear, &traversal, search);
 }
 
 // The nearest hits of the rays in the live lanes.
@@ -116,7 +116,7 @@ Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
     search.number = (Indices)RT_MAX_INDEX;
     search.limit = search.hit.t;
     search.finds_first = false;
-    search.has_zones = RT_HAS_GLASS && any_lane(live & (ray->zone > (Reals)0));
+    search.has_zones = RT_HAS(GLASS) && any_lane(live & (ray->zone > (Reals)0));
     Mask tied = RT_NO_LANES;
     for (;;) {
         search_all(scene, ray, &shear, &search);
@@ -178,7 +178,7 @@ bool blocked_by_cones(const SceneView* scene, const Ray* ray, Index light, Trave
 // has one.
 bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal,
                           Reals* t_max, Index first_caster, Index caster_count) {
-    bool is_brute = !RT_HAS_HIERARCHY || scene->params.triangle_root == 0;
+    bool is_brute = !RT_HAS(HIERARCHY) || scene->params.triangle_root == 0;
     bool has_list = is_brute && caster_count != scene->params.triangle_count;
     if (is_brute && caster_count == 0) return false;
     RayShear shear = make_shear(ray, *t_max > (Reals)0);
@@ -206,9 +206,9 @@ Mask any_hit(const SceneView* scene, const Ray* ray, Index light, Index first_ca
              Index caster_count) {
     Reals t_max = ray->t_max;
     Traversal traversal = begin_traversal(ray, t_max > (Reals)0);
-    bool is_done = RT_HAS_SPHERES && blocked_by_spheres(scene, ray, light, &traversal, &t_max);
-    is_done = is_done || (RT_HAS_CONES && blocked_by_cones(scene, ray, light, &traversal, &t_max));
-    if (RT_HAS_TRIANGLES && !is_done) {
+    bool is_done = RT_HAS(SPHERES) && blocked_by_spheres(scene, ray, light, &traversal, &t_max);
+    is_done = is_done || (RT_HAS(CONES) && blocked_by_cones(scene, ray, light, &traversal, &t_max));
+    if (RT_HAS(TRIANGLES) && !is_done) {
         blocked_by_triangles(scene, ray, &traversal, &t_max, first_caster, caster_count);
     }
     return (ray->t_max > (Reals)0) & (t_max < (Reals)0);

@@ -111,7 +111,7 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving, bo
     Reals root = sqrt(discriminant);
     Reals self_hit = ray->self_hit * unit;
     Mask from_eye = RT_NO_LANES;
-    if (RT_HAS_EYE_ON_SURFACE) {
+    if (RT_HAS(EYE_ON_SURFACE)) {
         from_eye = leaving & (ray->from == (Index)RT_EYE);
         self_hit = from_eye ? (Reals)-2 * b : self_hit;
     }
@@ -119,7 +119,7 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving, bo
     Reals one = q / a;
     Mask is_single = leaving | (q == (Reals)0);
     Reals other = is_single ? one : k / q;
-    if (RT_HAS_EYE_ON_SURFACE && any_lane(from_eye)) {
+    if (RT_HAS(EYE_ON_SURFACE) && any_lane(from_eye)) {
         Mask at_once = from_eye & starts_through(eye_side(cone->touches), b > (Reals)0);
         other = at_once ? (Real)RT_ROUNDOFF * radius : other;
     }

@@ -21,11 +21,11 @@
 
 // The surface of one primitive in the lanes that hit it.
 Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Index prim) {
-    if (RT_HAS_SPHERES && prim < scene->params.sphere_count) {
+    if (RT_HAS(SPHERES) && prim < scene->params.sphere_count) {
         return sphere_surface(ray, hit->t, &scene->spheres[prim]);
     }
     Index index = prim - first_triangle(scene);
-    if (RT_HAS_CONES && index < 0) {
+    if (RT_HAS(CONES) && index < 0) {
         return cone_surface(ray, hit->t, &scene->cones[prim - scene->params.sphere_count]);
     }
     return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
@@ -119,7 +119,7 @@ Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask 
         surface.point = select3(lanes, clear, surface.point);
     }
     Mask touching = live & (hit->tied | is_on_edge(scene, hit));
-    if (RT_HAS_GLASS) touching |= live & (hit->t <= ray->zone);
+    if (RT_HAS(GLASS)) touching |= live & (hit->t <= ray->zone);
     if (any_lane(touching)) {
         Reals tie = hit->tied ? (Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0;
         Reals back = (Reals)8 * surface.offset + tie;

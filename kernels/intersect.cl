@@ -40,7 +40,7 @@ Mask intersect_huge_sphere(const Ray* ray, __global const Sphere* sphere, Reals*
 }
 
 // Where the eye lies on or next to a surface: RT_ON, RT_OUTSIDE, RT_INSIDE; 0: elsewhere.
-Index eye_side(Index touches) { return RT_HAS_EYE_ON_SURFACE ? touches & RT_ON : 0; }
+Index eye_side(Index touches) { return RT_HAS(EYE_ON_SURFACE) ? touches & RT_ON : 0; }
 
 // Whether rays from an eye this close to a surface meet it at once: `outwards` those that go from
 // its inside to its outside.
@@ -69,7 +69,7 @@ Mask leaves_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Re
 Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* t) {
     Reals chord;
     Mask leaving = leaves_sphere(ray, sphere, prim, &chord);
-    if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {
+    if (RT_HAS(HUGE_SPHERES) && sphere->is_huge != 0) {
         Mask met = intersect_huge_sphere(ray, sphere, t);
         *t = leaving ? chord : *t;
         return met | leaving;

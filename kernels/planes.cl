@@ -13,7 +13,7 @@
 #include "kernels/film.cl"
 
 Index tile_margin(const LaunchParams* params) {
-    return RT_HAS_EDGES && params->tolerance > (Real)0 ? RT_EDGE_MARGIN : RT_ADAPTIVE_MARGIN;
+    return RT_HAS(EDGES) && params->tolerance > (Real)0 ? RT_EDGE_MARGIN : RT_ADAPTIVE_MARGIN;
 }
 
 // The tile with `margin` pixels around it.
@@ -100,7 +100,7 @@ RayCounts centers_item(__global Real* planes, const SceneView* scene, const Tile
     Indices places = lanes.live ? lanes.row * wide.width + lanes.column : (Indices)-1;
     Index size = plane_size(&wide);
     store_colors(planes, size, divide3(sum.color, sum.weight), places);
-    if (RT_HAS_EDGES) store_in_plane(planes + RT_SIGNATURES * size, used.signature, places);
+    if (RT_HAS(EDGES)) store_in_plane(planes + RT_SIGNATURES * size, used.signature, places);
     // The margin is counted by other tiles, or lies outside the picture.
     Indices column = lanes.column - margin, row = lanes.row - margin;
     Indices inside =

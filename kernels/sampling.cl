@@ -94,11 +94,11 @@ Position grid_position(Index grid, Indices k) {
 
 // Sample k of pixel (x, y) in the unit square.
 Position unit_position(const LaunchParams* params, Indices x, Indices y, Indices k) {
-    if (RT_HAS_EDGES && params->tolerance > (Real)0) {  // kernels/edges.cl
+    if (RT_HAS(EDGES) && params->tolerance > (Real)0) {  // kernels/edges.cl
         Position corner = {(Reals)0, (Reals)0};
         return corner;
     }
-    if (!RT_HAS_SOBOL || params->sampling == RT_SAMPLES_GRID) {
+    if (!RT_HAS(SOBOL) || params->sampling == RT_SAMPLES_GRID) {
         return grid_position(params->grid, k);
     }
     Uints pixel = RT_TO_UINTS(y) * 65536u + RT_TO_UINTS(x);
@@ -137,7 +137,7 @@ Reals filter_weight(Index filter, Reals d) {
 // Sample k of pixel (x, y), in pixels from the pixel's lower left corner.
 Position sample_position(const LaunchParams* params, Indices x, Indices y, Indices k) {
     Position position = unit_position(params, x, y, k);
-    if (!RT_HAS_FILTERS || params->filter == RT_FILTER_BOX) return position;
+    if (!RT_HAS(FILTERS) || params->filter == RT_FILTER_BOX) return position;
     Reals side = (Reals)((Real)2 * filter_radius(params->filter));
     position.x = fma(position.x - (Reals)0.5f, side, (Reals)0.5f);
     position.y = fma(position.y - (Reals)0.5f, side, (Reals)0.5f);
@@ -146,7 +146,7 @@ Position sample_position(const LaunchParams* params, Indices x, Indices y, Indic
 
 // The weight of sample k of pixel (x, y); 1 under the box filter.
 Reals sample_weight(const LaunchParams* params, Indices x, Indices y, Indices k) {
-    if (!RT_HAS_FILTERS || params->filter == RT_FILTER_BOX) return (Reals)1;
+    if (!RT_HAS(FILTERS) || params->filter == RT_FILTER_BOX) return (Reals)1;
     Position position = sample_position(params, x, y, k);
     return filter_weight(params->filter, position.x - (Reals)0.5f) *
            filter_weight(params->filter, position.y - (Reals)0.5f);

@@ -27,7 +27,7 @@ typedef struct {
 
 // A primitive's number in the scene: hierarchies reorder them.
 Index scene_number(const SceneView* scene, Index prim) {
-    if (!RT_HAS_HIERARCHY) return prim;
+    if (!RT_HAS(HIERARCHY)) return prim;
     bool reordered =
         (scene->params.sphere_root | scene->params.cone_root | scene->params.triangle_root) != 0;
     return reordered ? scene->order[prim] : prim;

@@ -39,7 +39,7 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
     Ray shadow = spawn_ray(surface, origin, dir, prim);
     Reals cosine = dot3(surface->normal, shadow.dir);
     lit &= cosine > (Reals)0;
-    if (RT_HAS_VERTEX_NORMALS && !any_lane(lit)) return none;
+    if (RT_HAS(VERTEX_NORMALS) && !any_lane(lit)) return none;
     Reals end = distance * (Reals)((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
     shadow.t_max = lit ? end : (Reals)-1;
     counts->shadow += lit & 1;
@@ -62,7 +62,7 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
 real3 shade(const SceneView* scene, const Surface* surface, const Materials* material, real3 to_eye,
             Indices prim, Mask live, PacketCounts* counts) {
     real3 color = mul3(material->ambient, load3(scene->params.ambient_light));
-    if (RT_HAS_LIGHTS) {
+    if (RT_HAS(LIGHTS)) {
         real3 origin = offset_origin(surface, surface->geometric);
         for (Index i = 0; i < scene->params.light_count; ++i) {
             color = add3(color, light_contribution(scene, surface, material, i, origin, to_eye,

@@ -11,7 +11,7 @@
 
 // Whether anybody reads the signatures.
 bool has_signatures(const SceneView* scene) {
-    return RT_HAS_EDGES && scene->params.tolerance > (Real)0;
+    return RT_HAS(EDGES) && scene->params.tolerance > (Real)0;
 }
 
 // Adds a number to the signatures of these lanes.
@@ -33,9 +33,9 @@ uint cell(Real coordinate, Real cells) {
 // and smooth ones of a material. An edge among the latter shows in its colors, or not at all.
 Index surface_number(const SceneView* scene, Index prim) {
     Index index = prim - first_triangle(scene);
-    if (!RT_HAS_TRIANGLES || index < 0) return scene_number(scene, prim);
+    if (!RT_HAS(TRIANGLES) || index < 0) return scene_number(scene, prim);
     __global const Triangle* triangle = &scene->triangles[index];
-    if (RT_HAS_VERTEX_NORMALS && triangle->smooth != RT_NONE) return -1 - triangle->material;
+    if (RT_HAS(VERTEX_NORMALS) && triangle->smooth != RT_NONE) return -1 - triangle->material;
     uint number = (uint)triangle->material;
     number = number * 0x9e3779b1u + cell(triangle->normal.x, (Real)2020.7f);
     number = number * 0x9e3779b1u + cell(triangle->normal.y, (Real)2020.7f);

@@ -50,7 +50,7 @@ Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     surface.point_low = add3(sub3(center, surface.point), out);
     Reals spread = dot3(abs3(surface.normal), add3(abs3(center), abs3(surface.point)));
     surface.offset = (Real)RT_ROUNDOFF * fma((Reals)5, (Reals)sphere->radius, spread);
-    if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {
+    if (RT_HAS(HUGE_SPHERES) && sphere->is_huge != 0) {
         surface.point = add_scaled(ray->origin, t, ray->dir);
         surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
         surface.normal = normalize3(sub3(surface.point, center));
@@ -142,7 +142,7 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     surface.geometric = normal;
     surface.signed_diameter = (Reals)0;
     surface.material = (Indices)triangle->material;
-    if (RT_HAS_VERTEX_NORMALS && triangle->smooth != RT_NONE) {
+    if (RT_HAS(VERTEX_NORMALS) && triangle->smooth != RT_NONE) {
         __global const VertexNormals* normals = &vertex_normals[triangle->smooth];
         surface.normal = blended_normal(normals, normal, hit->u, hit->v);
         Mask turned = dot3(surface.normal, normal) < (Reals)0;

@@ -25,7 +25,7 @@
 // reflected about the geometric normal instead.
 Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
     real3 mirrored = reflect3(dir, surface->normal);
-    if (RT_HAS_VERTEX_NORMALS) {
+    if (RT_HAS(VERTEX_NORMALS)) {
         Reals arriving = dot3(dir, surface->geometric);
         Mask leaves = dot3(mirrored, surface->geometric) * arriving < (Reals)0;
         mirrored = select3(leaves, mirrored, reflect3(dir, surface->geometric));
@@ -64,7 +64,7 @@ Ray refracted_ray(const Surface* surface, real3 dir, Reals eta, Indices prim, Ma
         *total = !(squared >= (Reals)0);
         refracted = select3(eta == (Reals)1, dir, normalize3(bent));
         Mask passes = *total | (dot3(refracted, surface->geometric) * arriving > (Reals)0);
-        if (!RT_HAS_VERTEX_NORMALS || attempt == 1 || !any_lane(!passes)) break;
+        if (!RT_HAS(VERTEX_NORMALS) || attempt == 1 || !any_lane(!passes)) break;
         normal = select3(passes, normal, surface->geometric);
     }
     // Among surfaces that touch it starts before them all, however grazing (note_crossed).
@@ -115,12 +115,12 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     real3 throughput = path->throughput;
     real3 reflected = limit3(mul3(throughput, material->mirror));
     Mask glassy = RT_NO_LANES;
-    if (RT_HAS_GLASS) glassy = path->live & !is_black(material->transmission);
+    if (RT_HAS(GLASS)) glassy = path->live & !is_black(material->transmission);
     // Where the point has moved, a chord no longer starts there; mirror rays outside meet none.
     Mask moved = (glassy | inside) & (surface->back > (Reals)0);
     moved &= surface->signed_diameter != (Reals)0;
     Indices from = moved ? (Indices)RT_NONE : prim;
-    if (!RT_HAS_GLASS || !any_lane(glassy)) {
+    if (!RT_HAS(GLASS) || !any_lane(glassy)) {
         path->throughput = reflected;
         path->live &= !is_black(reflected);
         if (!any_lane(path->live)) return;
@@ -145,7 +145,7 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     Mask reflects = path->live & !is_black(reflected) & !(glassy & is_faint(reflected));
     Mask splits = reflects & transmits;
     path->bounce += 1;
-    if (RT_HAS_MIRRORS && any_lane(splits)) {
+    if (RT_HAS(MIRRORS) && any_lane(splits)) {
         Path later = {refracted, transmitted, splits, path->bounce};
         pending->paths[pending->size++] = later;
     }
@@ -181,7 +181,7 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
     color = select3(path->live, add3(color, weigh3(path->throughput, local_light)), color);
     RT_EXPLAIN(path->live, RT_EVENT_HIT, hit->prim, path->bounce, hit->t, path->throughput,
                surface.point, surface.normal, local_light);
-    bool ends = !(RT_HAS_MIRRORS || RT_HAS_GLASS) || path->bounce >= scene->params.max_bounces;
+    bool ends = !(RT_HAS(MIRRORS) || RT_HAS(GLASS)) || path->bounce >= scene->params.max_bounces;
     if (ends) {
         path->live = RT_NO_LANES;
     } else {
@@ -192,7 +192,7 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
 
 // Pops the ray pushed last. False when there is none.
 bool resume(Path* path, Pending* pending) {
-    if (!(RT_HAS_GLASS && RT_HAS_MIRRORS) || pending->size == 0) return false;
+    if (!(RT_HAS(GLASS) && RT_HAS(MIRRORS)) || pending->size == 0) return false;
     pending->size -= 1;
     *path = pending->paths[pending->size];
     RT_EXPLAIN(path->live, RT_EVENT_REFRACTED, 0, path->bounce, (Reals)0, path->throughput,

@@ -40,11 +40,12 @@ def compiled(gpu, *options):
 
 def left_out(scene):
     """The build options for what a scene does not need."""
-    macros = dict(re.findall(r'"([\w ]+)", "(RT_HAS_\w+)"', (ROOT / "host/flatten/features.h").read_text()))
+    names = re.findall(r'"([\w ]+)"', (ROOT / "host/flatten/features.h").read_text())
     with tempfile.TemporaryDirectory() as folder:
         stats = json.loads(run("render", ROOT / "scenes" / scene, "--size", "8", "--device", "threads", "--stats=json",
                                "-o", pathlib.Path(folder, "out.pfm")).stdout)
-    return [f"-D{macros[name]}=0" for name in stats["scene"]["features_left_out"]]
+    bits = sum(1 << i for i, name in enumerate(names) if name not in stats["scene"]["features_left_out"])
+    return [f"-DRT_FEATURE_BITS={bits:#x}"]
 
 
 def arithmetic(ptx):

@@ -4,7 +4,6 @@
 // their switches as variables, in packets and one ray at a time.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 
 #include "host/flatten/flat_scene.h"
@@ -15,7 +14,7 @@
 
 extern "C" {
 /// What tests/switchable_features.h reads.
-int rt_switches[13];
+int rt_switches;
 
 #define DECLARE_SWITCHABLE(name)                                                    \
     void name##_pixels(float*, rt::f32::RayCounts*, const rt::NativeView<float>*,   \
@@ -40,12 +39,6 @@ namespace {
     }
 const NativeKernels<float> single SWITCHABLE(1), packets SWITCHABLE(8);
 
-void set_switches(const Features& features) {
-    for (std::size_t i = 0; i < feature_names.size(); ++i) {
-        rt_switches[i] = features[i] ? 1 : 0;
-    }
-}
-
 std::uint64_t hash_by(const NativeKernels<float>& kernels, const FlatScene<float>& flat) {
     const Rect whole{0, 0, flat.params.width, flat.params.height};
     const auto tile = flat_tile<float>(whole, whole);
@@ -66,7 +59,6 @@ std::uint64_t hash_by(const NativeKernels<float>& kernels, const FlatScene<float
 }
 
 TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
-    static_assert(feature_names.size() == std::size(rt_switches));
     ThreadsOptions everything;
     everything.kernels.features = every_feature;
     int sets = 0;
@@ -78,7 +70,7 @@ TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
         const FlatScene<float> flat = flatten<float>(scene);
         ASSERT_EQ(flat.features, features) << bits;
         const std::uint64_t expected = hash_of(render_on_threads<float>(scene, everything));
-        set_switches(features);
+        rt_switches = bits;
         EXPECT_EQ(hash_by(single, flat), expected) << bits;
         EXPECT_EQ(hash_by(packets, flat), expected) << bits;
     }
@@ -88,17 +80,16 @@ TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
 /// Otherwise the test above would compare a picture with itself.
 TEST(Switches, DoSomething) {
     const FlatScene<float> flat = flatten<float>(scene_needing(Features(0xfff)));
-    set_switches(Features(0xfff));
+    rt_switches = 0xfff;
     const std::uint64_t all = hash_by(packets, flat);
     for (const int bit : {0, 3, 4, 5, 7, 8, 9, 10, 11}) {
-        set_switches(Features(0xfff & ~(1 << bit)));
-        EXPECT_NE(hash_by(packets, flat), all) << feature_names[bit].name;
+        rt_switches = 0xfff & ~(1 << bit);
+        EXPECT_NE(hash_by(packets, flat), all) << feature_names[bit];
     }
-    const Features edges = Features(0x17ff);
-    const FlatScene<float> with_edges = flatten<float>(scene_needing(edges));
-    set_switches(edges);
+    const FlatScene<float> with_edges = flatten<float>(scene_needing(Features(0x17ff)));
+    rt_switches = 0x17ff;
     const std::uint64_t found = hash_by(packets, with_edges);
-    set_switches(Features(0x7ff));
+    rt_switches = 0x7ff;
     EXPECT_NE(hash_by(packets, with_edges), found);
 }
 

@@ -108,8 +108,8 @@ void parse_features(const std::string& text, RenderOptions& render) {
     render.kernels.features = text == "all" ? every_feature : Features();
     if (text == "all" || text == "auto") return;
     std::vector<std::string> names;
-    for (const FeatureName& feature : feature_names) {
-        std::string& name = names.emplace_back(feature.name);
+    for (const char* feature : feature_names) {
+        std::string& name = names.emplace_back(feature);
         std::replace(name.begin(), name.end(), ' ', '-');
     }
     for (const std::string& part : split_list(text)) {

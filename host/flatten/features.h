@@ -9,9 +9,8 @@
 
 namespace rt {
 
-/// What a scene can need from the kernels: the switches of kernels/features.h, in the order of its
-/// RT_FEATURE_BITS. Coarse and few: tests render each alone, and every set that a scene can
-/// need.
+/// What a scene can need from the kernels: the bits of kernels/features.h. Coarse and few: tests
+/// render each alone, and every set that a scene can need.
 namespace feature {
 enum Index : std::size_t {
     spheres,
@@ -30,27 +29,11 @@ enum Index : std::size_t {
 };
 }  // namespace feature
 
-/// One switch: its name for people and for the kernels' build options.
-struct FeatureName {
-    const char* name;
-    const char* macro;
+inline constexpr std::array<const char*, 13> feature_names{
+    "spheres",   "huge spheres", "eye on a surface", "cones", "triangles",     "vertex normals",
+    "hierarchy", "lights",       "mirrors",          "glass", "Sobol samples", "wide filters",
+    "edges",
 };
-
-inline constexpr std::array<FeatureName, 13> feature_names{{
-    {"spheres", "RT_HAS_SPHERES"},
-    {"huge spheres", "RT_HAS_HUGE_SPHERES"},
-    {"eye on a surface", "RT_HAS_EYE_ON_SURFACE"},
-    {"cones", "RT_HAS_CONES"},
-    {"triangles", "RT_HAS_TRIANGLES"},
-    {"vertex normals", "RT_HAS_VERTEX_NORMALS"},
-    {"hierarchy", "RT_HAS_HIERARCHY"},
-    {"lights", "RT_HAS_LIGHTS"},
-    {"mirrors", "RT_HAS_MIRRORS"},
-    {"glass", "RT_HAS_GLASS"},
-    {"Sobol samples", "RT_HAS_SOBOL"},
-    {"wide filters", "RT_HAS_FILTERS"},
-    {"edges", "RT_HAS_EDGES"},
-}};
 
 using Features = std::bitset<feature_names.size()>;
 
@@ -60,7 +43,7 @@ inline constexpr Features every_feature{(1u << feature_names.size()) - 1};
 inline std::vector<std::string> names_of(const Features& features, bool used) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < features.size(); ++i) {
-        if (features[i] == used) names.emplace_back(feature_names[i].name);
+        if (features[i] == used) names.emplace_back(feature_names[i]);
     }
     return names;
 }

@@ -162,8 +162,8 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     } else if (device.rounds_correctly) {
         text += " -cl-fp32-correctly-rounded-divide-sqrt";
     }
-    for (std::size_t i = 0; i < options.features.size(); ++i) {
-        if (!options.features[i]) text += fmt::format(" -D{}=0", feature_names[i].macro);
+    if (!options.features.all()) {
+        text += fmt::format(" -DRT_FEATURE_BITS={:#x}", options.features.to_ulong());
     }
     if (options.samples != 0) text += fmt::format(" -DRT_SAMPLES={}", options.samples);
     if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";

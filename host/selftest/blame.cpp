@@ -274,7 +274,7 @@ class PictureBlame {
         for (std::size_t i = 0; i < flat_.features.size(); ++i) {
             if (flat_.features[i]) continue;
             const bool is_on = base_.kernels.features[i];
-            vary_by(fmt::format("{} {}", is_on ? "without" : "with", feature_names[i].name),
+            vary_by(fmt::format("{} {}", is_on ? "without" : "with", feature_names[i]),
                     [&](auto& k) { k.features.flip(i); });
         }
         vary_by("groups of 1 work item", [](auto& k) { k.group = 1; });

@@ -83,7 +83,7 @@ GUARDS = [
          "flat.is_huge = 0;"),
     ], [("stress", "huge-ball-floor")]),
     Guard("the point of a huge sphere is not put back", [
-        (K + "surface.cl", "if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {", "if (false) {"),
+        (K + "surface.cl", "if (RT_HAS(HUGE_SPHERES) && sphere->is_huge != 0) {", "if (false) {"),
     ], [("stress", "huge-ball-floor")]),
     Guard("cone: moved to the closest approach", [
         (K + "cone.cl", "leaving ? (Reals)0 : cone_shift(ray, w, goal, cone);", "(Reals)0;"),

@@ -38,7 +38,7 @@ FAULTS = {
                           "the function intersect_sphere"),
     "one lane of 16": ("real3 negate3(real3 v) { ", "real3 negate3(real3 v) {\n#if RT_LANES == 16\n"
                        "    v.x.sf += (Real)1;\n#endif\n    ", "the function negate3"),
-    "only with glass": (ITEM, ITEM.replace("\n", "\n    if (RT_HAS_GLASS) {\n" + BRIGHTER + "    }\n", 1),
+    "only with glass": (ITEM, ITEM.replace("\n", "\n    if (RT_HAS(GLASS)) {\n" + BRIGHTER + "    }\n", 1),
                         "without glass"),
     "only per sample": (SAMPLE, SAMPLE.replace("\n", "\n" + BRIGHTER, 1), "a sample per work item"),
     "only above 2^20 work items": (*after_lanes(
