@@ -32,10 +32,12 @@
 #include "kernels/rays.cl"
 #endif
 
-RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, Index item) {
+// A packet holds at most most_samples of each of its pixels.
+RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, Index item,
+                      Index most_samples) {
     RayCounts used = {0, 0, 0, 0};
     if (RT_SAMPLES != 0) scene->params.samples = RT_SAMPLES;
-    Packet packet = make_packet(scene->params.samples, RT_SAMPLES_TOGETHER);
+    Packet packet = make_packet(scene->params.samples, most_samples);
     TileLanes lanes = tile_lanes(tile, &packet, item);
     if (!any_lane(lanes.live)) return used;
     real3 color = trace_pixels(scene, &packet, tile->x + lanes.column,
@@ -45,8 +47,7 @@ RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, I
     return used;
 }
 
-// Sample k of the tile's pixel i goes to samples[k * pixels + i]. A packet holds at most
-// most_samples of each of its pixels.
+// Likewise; sample k of the tile's pixel i goes to samples[k * pixels + i].
 RayCounts samples_item(__global Real* samples, const SceneView* scene, const Tile* tile, Index item,
                        Index most_samples) {
     RayCounts sums = {0, 0, 0, 0};

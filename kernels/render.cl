@@ -26,7 +26,7 @@
 static RT_ITEM void one_of_pixels(__global Real* film, __global RayCounts* counts,
                                   RT_SCENE_PARAMETERS, Tile tile, size_t item) {
     SceneView scene = RT_SCENE_VIEW;
-    add_counts(counts, item, pixels_item(film, &scene, &tile, (Index)item));
+    add_counts(counts, item, pixels_item(film, &scene, &tile, (Index)item, RT_SAMPLES_TOGETHER));
 }
 
 __kernel void render_pixels(__global Real* restrict film, __global RayCounts* restrict counts,

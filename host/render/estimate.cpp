@@ -193,23 +193,21 @@ std::vector<double> ErrorEstimator<T>::trace(const std::vector<std::int32_t>& pi
     std::vector<T> colors(3 * pixels.size());
     std::atomic<std::uint64_t> at_edges = 0;
     constexpr std::size_t run = 16;
-    const int held = packet_shape(kernels.lanes, aa.samples(), kernels.lanes).pixels();
     for_each_run(pixels.size(), run, thread_count(options, 1),
                  [&](std::size_t first, std::size_t last) {
-                     auto tile = flat_tile<T>(region, region);
-                     tile.width = static_cast<typename Flat<T>::Index>(last - first);
-                     typename Flat<T>::RayCounts counts{};
-                     if (!aa.finds_edges()) {
-                         kernels.render_list(&colors[3 * first], &counts, &view, &tile,
-                                             &pixels[first], 0, (tile.width + held - 1) / held);
-                         return;
-                     }
                      std::vector<T> planes;
+                     typename Flat<T>::RayCounts counts{};
                      for (std::size_t i = first; i < last; ++i) {
                          const Rect pixel{region.x + pixels[i] % region.width,
                                           region.y + pixels[i] / region.width, 1, 1};
-                         render_tile_in_rounds(kernels, view, flat_tile<T>(pixel, pixel), planes,
-                                               &colors[3 * i], counts, [] { return false; });
+                         const auto tile = flat_tile<T>(pixel, pixel);
+                         T* const color = &colors[3 * i];
+                         if (aa.finds_edges()) {
+                             render_tile_in_rounds(kernels, view, tile, planes, color, counts,
+                                                   [] { return false; });
+                         } else {
+                             kernels.render_pixel(color, &counts, &view, &tile, 0, 1);
+                         }
                      }
                      at_edges += counts.primary;
                  });

@@ -18,9 +18,9 @@
     extern "C" {                                                               \
     extern const int name##_traits[3];                                         \
     RT_DECLARE_ENTRY(T, name##_pixels, render_pixels);                         \
+    RT_DECLARE_ENTRY(T, name##_pixel, render_pixel);                           \
     RT_DECLARE_ENTRY(T, name##_samples, render_samples);                       \
     RT_DECLARE_ENTRY(T, name##_resolve, resolve_samples);                      \
-    RT_DECLARE_ENTRY(T, name##_list, render_list);                             \
     RT_DECLARE_ENTRY(T, name##_centers, render_centers) __attribute__((weak)); \
     RT_DECLARE_ENTRY(T, name##_round, render_round) __attribute__((weak));     \
     RT_DECLARE_ENTRY(T, name##_rays, trace_rays) __attribute__((weak));        \
@@ -41,9 +41,9 @@ namespace {
      name##_traits[1],                                  \
      name##_traits[2],                                  \
      name##_pixels,                                     \
+     name##_pixel,                                      \
      name##_samples,                                    \
      name##_resolve,                                    \
-     name##_list,                                       \
      name##_centers,                                    \
      name##_round,                                      \
      name##_rays},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,11 +41,11 @@ struct NativeKernels {
     int samples;  ///< per pixel, compiled in; 0: any number
 
     void (*render_pixels)(T* film, Counts*, const View*, const Tile*, Index first, Index end);
+    /// The same with packets for tiles of one pixel.
+    void (*render_pixel)(T* film, Counts*, const View*, const Tile*, Index first, Index end);
     void (*render_samples)(T* samples, Counts*, const View*, const Tile*, Index first, Index end);
     void (*resolve_samples)(T* film, const T* samples, const typename Flat<T>::LaunchParams*,
                             const Tile*, Index first, Index end);
-    void (*render_list)(T* colors, Counts*, const View*, const Tile*, const std::int32_t* pixels,
-                        Index first, Index end);
     /// Null where a number of samples is compiled in.
     void (*render_centers)(T* planes, Counts*, const View*, const Tile*, Index first, Index end);
     void (*render_round)(T* film, Counts*, const View*, const Tile*, T* planes, Index round,

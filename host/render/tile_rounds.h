@@ -21,11 +21,9 @@ struct PacketShape {
     int pixels() const { return width * height; }
 };
 
-/// A packet holds at most `most_samples` of each pixel.
-inline PacketShape packet_shape(int lanes, int samples_of_a_pixel,
-                                int most_samples = f32::RT_SAMPLES_TOGETHER) {
+inline PacketShape packet_shape(int lanes, int samples_of_a_pixel) {
     PacketShape shape;
-    while (2 * shape.samples <= std::min(lanes, most_samples) &&
+    while (2 * shape.samples <= std::min<int>(lanes, f32::RT_SAMPLES_TOGETHER) &&
            samples_of_a_pixel % (2 * shape.samples) == 0) {
         shape.samples *= 2;
     }

@@ -38,5 +38,5 @@ void explain_event(Mask live, int what, Indices index, Index bounce, Reals dista
 void rt_explain_pixel(__global Real* film, __global RayCounts* counts, const SceneView* view,
                       const Tile* tile) {
     SceneView scene = *view;
-    add_counts(counts, 0, pixels_item(film, &scene, tile, 0));
+    add_counts(counts, 0, pixels_item(film, &scene, tile, 0, 1));
 }

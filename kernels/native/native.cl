@@ -19,7 +19,13 @@ __constant int RT_NATIVE(_traits)[] = {RT_FEATURE_BITS, RT_LANES, RT_SAMPLES};
 
 void RT_NATIVE(_pixels)(__global Real* film, __global RayCounts* counts, const SceneView* view,
                         const Tile* tile, Index first, Index end) {
-    RT_FOR_ITEMS(pixels_item(film, &scene, tile, item));
+    RT_FOR_ITEMS(pixels_item(film, &scene, tile, item, RT_SAMPLES_TOGETHER));
+}
+
+// For tiles of one pixel.
+void RT_NATIVE(_pixel)(__global Real* film, __global RayCounts* counts, const SceneView* view,
+                       const Tile* tile, Index first, Index end) {
+    RT_FOR_ITEMS(pixels_item(film, &scene, tile, item, RT_LANES));
 }
 
 void RT_NATIVE(_samples)(__global Real* samples, __global RayCounts* counts, const SceneView* view,
@@ -30,34 +36,6 @@ void RT_NATIVE(_samples)(__global Real* samples, __global RayCounts* counts, con
 void RT_NATIVE(_resolve)(__global Real* film, __global const Real* samples,
                          const LaunchParams* params, const Tile* tile, Index first, Index end) {
     for (Index item = first; item < end; ++item) resolve_item(film, samples, params, tile, item);
-}
-
-// Traces tile->width chosen pixels: pixels[i] is an index into a film of tile->film_width columns
-// whose upper left corner is pixel (tile->x, tile->y) of the picture. Pixel i goes to colors[i].
-static RayCounts list_item(__global Real* colors, __global const int* pixels,
-                           const SceneView* scene, const Tile* tile, Index item) {
-    RayCounts used = {0, 0, 0, 0};
-    Packet packet = make_packet(scene->params.samples, RT_LANES);
-    Index first = item * packet.pixels;
-    if (first >= tile->width) return used;
-    IndexLanes number, pixel;
-    number.all = first + packet.pixel;
-    for (Index i = 0; i < RT_LANES; ++i) {
-        Index n = number.lane[i];
-        pixel.lane[i] = pixels[n < tile->width ? n : tile->width - 1];
-    }
-    Indices row = pixel.all / tile->film_width;
-    Indices column = pixel.all - row * tile->film_width;
-    Mask live = (Mask)(number.all < tile->width);
-    real3 color = trace_pixels(scene, &packet, tile->x + column,
-                               picture_y(&scene->params, tile, row), live, &used);
-    store_lanes(colors, color, live ? number.all : (Indices)-1, packet.pixels);
-    return used;
-}
-
-void RT_NATIVE(_list)(__global Real* colors, __global RayCounts* counts, const SceneView* view,
-                      const Tile* tile, __global const int* pixels, Index first, Index end) {
-    RT_FOR_ITEMS(list_item(colors, pixels, &scene, tile, item));
 }
 
 #if RT_RENDERS_ADAPTIVE || RT_RENDERS_EDGES
