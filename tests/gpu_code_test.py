@@ -59,10 +59,9 @@ class GpuCode(unittest.TestCase):
             self.skipTest(f"{CLANG} cannot compile for {', '.join(missing)}")
 
     def test_compiles_without_warnings(self):
-        for gpu in GPUS:
-            for options in PRECISIONS.values():
-                for entry in "render_pixels", "render_samples", "render_round", "resolve_samples", "sum_counts", "trace_rays":
-                    self.assertRegex(compiled(gpu, *options), rf"\b{entry}\b")
+        for gpu, precision in [("nvptx64", "f32"), ("nvptx64", "f64"), ("amdgcn", "f32")]:  # each takes long
+            for entry in "render_pixels", "render_samples", "render_round", "resolve_samples", "sum_counts", "trace_rays":
+                self.assertRegex(compiled(gpu, *PRECISIONS[precision]), rf"\b{entry}\b")
 
     def test_old_compilers_get_no_pragma_of_newer_ones(self):
         """NVIDIA's is a clang 7, which rejects always_inline in one."""
@@ -79,7 +78,8 @@ class GpuCode(unittest.TestCase):
                              {f"{name}.rn.{kind}" for name in ["add", "sub", "mul", "div", "rcp"]})
 
     def test_fast_math_fuses(self):
-        self.assertIn("fma.rn.f32", arithmetic(compiled("nvptx64", "-DRT_FAST_MATH=1", "-cl-mad-enable")))
+        self.assertIn("fma.rn.f32", arithmetic(compiled("nvptx64", "-DRT_FAST_MATH=1", "-cl-mad-enable",
+                                                      *left_out("cornell-box.json"))))
 
     def test_calls_only_what_opencl_rounds_correctly(self):
         """The rest of OpenCL's functions differ from vendor to vendor."""
