@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/opencl/devices.h"
 #include "host/opencl/pocl.h"
 #include "host/record/record.h"
@@ -126,26 +127,34 @@ std::string encoded(const std::vector<ProbeRecord>& records) {
            std::string(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
 }
 
-/// Collects the launches of strict probes, the first items of each, for `mirrorball selftest`.
+/// Collects launches of strict probes, the first items of each, for `mirrorball selftest`.
 class Recorder {
    public:
     void add(const ProbeRecord& launch) {
         const bool has_scene = launch.has_scene();
-        const std::size_t most = has_scene ? 24 : 64;
-        ProbeRecord record = first_items(launch, most);
-        auto& [items, records] = launches_[{has_scene, launch.function, launch.is_double}];
+        ProbeRecord record = first_items(launch, has_scene ? 24 : 64);
+        Hasher hasher;
         std::size_t bytes = 0;
-        for (const ProbeArray& input : record.inputs) bytes += input.bytes.size();
-        if (items + record.count > 3 * most || bytes > most_bytes) return;
-        items += record.count;
-        expect_native_bits(record);
-        records.push_back(std::move(record));
+        for (const ProbeArray& input : record.inputs) {
+            hasher.add_bytes(input.bytes);
+            bytes += input.bytes.size();
+        }
+        if (bytes > most_bytes) return;
+        launches_[{has_scene, launch.function, launch.is_double}].insert(
+            {hasher.value(), std::move(record)});
     }
 
+    /// Of each function some, chosen by their hashes: the compiler chooses the order of tests.
     void save(const std::string& file) {
         std::vector<ProbeRecord> all;
         for (auto& [function, launches] : launches_) {
-            all.insert(all.end(), launches.second.begin(), launches.second.end());
+            std::size_t items = 0;
+            for (auto& [hash, record] : launches) {
+                if (items + record.count > (record.has_scene() ? 72 : 192)) continue;
+                items += record.count;
+                expect_native_bits(record);
+                all.push_back(std::move(record));
+            }
         }
         std::ofstream(file, std::ios::binary) << encoded(all);
     }
@@ -153,9 +162,9 @@ class Recorder {
    private:
     static constexpr std::size_t most_bytes = 20000;
 
-    /// Items and launches of each function and precision, those that take scenes last.
-    std::map<std::tuple<bool, std::string, bool>, std::pair<std::size_t, std::vector<ProbeRecord>>>
-        launches_;
+    /// Launches of each function and precision by a hash of their inputs, those that take scenes
+    /// last.
+    std::map<std::tuple<bool, std::string, bool>, std::map<std::uint64_t, ProbeRecord>> launches_;
 };
 
 Recorder recorder;
