@@ -91,12 +91,14 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
         const auto [right, right_rays] = rendered(*threads, strip);
         const std::size_t wrong = differing_pixels(film, right);
         if (wrong == 0 && rays == right_rays) continue;
-        throw Error(
-            ExitCode::device,
-            fmt::format("{} fails its self-test: {} of {} pixels differ from those of threads, "
-                        "and it counts {} rays instead of {}; clear its kernel cache, update its "
-                        "driver, or use --device threads",
-                        name, wrong, strip.pixels(), rays.total(), right_rays.total()));
+        const std::string why =
+            wrong > 0
+                ? fmt::format("{} of {} pixels differ from those of threads", wrong, strip.pixels())
+                : fmt::format("it counts {} rays, threads {}", rays.total(), right_rays.total());
+        throw Error(ExitCode::device,
+                    fmt::format("{} fails its self-test: {}; clear its kernel cache, update its "
+                                "driver, or use --device threads",
+                                name, why));
     }
 }
 
