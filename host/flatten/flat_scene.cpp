@@ -220,13 +220,14 @@ class Flattener {
 
     void flatten_lights() {
         if (!material_use_.reflects_lights) return;
+        const bool lists = lists_casters();
         for (const Scene::Light& light : scene_.lights) {
             if (is_black(light.intensity)) continue;
             typename Flat<T>::Light flat{};
             flat.position = pack_position<T>(view_, light.position);
             flat.intensity = pack<T>(light.intensity);
             flat.caster_count = static_cast<Index>(flat_.triangles.size());
-            if (lists_casters()) list_casters(light.position, flat);
+            if (lists) list_casters(light.position, flat);
             flat_.lights.push_back(flat);
             light_positions_.push_back(light.position);
             flat_.stats.casters += static_cast<std::uint64_t>(flat.caster_count);
