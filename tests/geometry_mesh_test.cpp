@@ -52,7 +52,7 @@ Split split(const Positions& corners, std::size_t file_bytes = 0) {
     std::iota(face.begin(), face.end(), 0u);
     Split result;
     const PolygonBlemish* const blemish =
-        append_face(face, {}, corners, polygon_work(file_bytes), result.faces, nullptr);
+        append_face(face, {}, corners, file_bytes, result.faces, nullptr);
     if (blemish) result.wrong = blemish->message;
     return result;
 }

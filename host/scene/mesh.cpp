@@ -121,7 +121,7 @@ bool parts_well(const std::array<glm::dvec3, 4>& quad) {
 
 const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
                                   std::span<const std::uint32_t> normals,
-                                  const std::vector<glm::dvec3>& positions, std::int64_t work,
+                                  const std::vector<glm::dvec3>& positions, std::size_t file_bytes,
                                   std::vector<Face>& faces, std::vector<Face>* face_normals) {
     const auto& p = positions;
     const auto& c = corners;
@@ -134,7 +134,7 @@ const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
     std::vector<glm::dvec3> outline;
     for (const std::uint32_t corner : corners) outline.push_back(positions[corner]);
     std::vector<Face> parts;
-    const PolygonBlemish* const blemish = split_polygon(outline, work, parts);
+    const PolygonBlemish* const blemish = split_polygon(outline, file_bytes, parts);
     for (const Face& which : parts) append_triangle(which, corners, normals, faces, face_normals);
     return blemish;
 }

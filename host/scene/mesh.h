@@ -29,11 +29,11 @@ bool parts_well(const std::array<glm::dvec3, 4>& quad);
 
 /// Appends the triangles of a face of at least 3 corners, which are indices into positions;
 /// `normals` are as many into the normals, or none. All must be in range. `face_normals` gets a row
-/// for each triangle; null for a mesh without normals. `work` is what polygon_work says. Returns
-/// what is wrong with the face, or null.
+/// for each triangle; null for a mesh without normals. `file_bytes` are as for split_polygon.
+/// Returns what is wrong with the face, or null.
 const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
                                   std::span<const std::uint32_t> normals,
-                                  const std::vector<glm::dvec3>& positions, std::int64_t work,
+                                  const std::vector<glm::dvec3>& positions, std::size_t file_bytes,
                                   std::vector<Scene::Mesh::Face>& faces,
                                   std::vector<Scene::Mesh::Face>* face_normals);
 

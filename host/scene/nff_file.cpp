@@ -390,8 +390,7 @@ class NffReader {
             }
         }
         const bool smooth = normals_.size() == corners_.size();
-        if (const auto* blemish =
-                split_polygon(corners_, polygon_work(mistakes_.text().size()), parts_)) {
+        if (const auto* blemish = split_polygon(corners_, mistakes_.text().size(), parts_)) {
             has_lost_ = true;
             mistakes_.note(blemish->remedy, offset, "{}", blemish->message);
         }

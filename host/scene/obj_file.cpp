@@ -241,9 +241,8 @@ class FaceReader {
         } else {
             if (!read_normals(offset)) normals_.clear();
             auto* const rows = all_normals_.empty() ? nullptr : &chunk_.face_normals;
-            const std::int64_t work = polygon_work(notes_.text().size());
-            const auto* blemish =
-                append_face(corners_, normals_, positions_, work, chunk_.faces, rows);
+            const auto* blemish = append_face(corners_, normals_, positions_, notes_.text().size(),
+                                              chunk_.faces, rows);
             if (blemish) notes_.note(blemish->remedy, offset, "{}", blemish->message);
         }
     }

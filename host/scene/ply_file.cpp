@@ -493,9 +493,8 @@ class BodyReader {
         for (const double index : indices) {
             if (!take_corner(index, bad_ply_face, 1)) return;
         }
-        const std::int64_t work = polygon_work(mistakes_.text().size());
-        const auto* blemish =
-            append_face(corners_, {}, mesh_.positions, work, mesh_.faces, nullptr);
+        const auto* blemish = append_face(corners_, {}, mesh_.positions, mistakes_.text().size(),
+                                          mesh_.faces, nullptr);
         if (blemish) rows_.note(blemish->remedy, blemish->message);
     }
 

@@ -340,10 +340,13 @@ bool triangulate(std::span<const glm::dvec3> corners, std::int64_t work,
 
 }  // namespace
 
-const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::int64_t work,
+const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::size_t file_bytes,
                                     std::vector<std::array<std::uint32_t, 3>>& triangles) {
     triangles.clear();
-    work *= static_cast<std::int64_t>(corners.size());
+    // So many for each corner bound the time for the whole file, and let a small one be intricate.
+    const std::int64_t each =
+        256 + (std::int64_t{1} << 32) / (static_cast<std::int64_t>(file_bytes) + 1);
+    const std::int64_t work = each * static_cast<std::int64_t>(corners.size());
     if (triangulate(corners, work, triangles)) return triangles.empty() ? &no_area : nullptr;
     triangles.clear();
     for (std::uint32_t i = 2; i < corners.size(); ++i) triangles.push_back({0, i - 1, i});

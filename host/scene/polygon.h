@@ -12,12 +12,6 @@
 
 namespace rt {
 
-/// How many comparisons splitting a polygon may take for each of its corners, in a file of so many
-/// bytes: this bounds the time for all of them, and lets a small file be intricate.
-constexpr std::int64_t polygon_work(std::size_t file_bytes) {
-    return 256 + (std::int64_t{1} << 32) / (static_cast<std::int64_t>(file_bytes) + 1);
-}
-
 /// What is wrong with a polygon, for Mistakes::note.
 struct PolygonBlemish {
     Remedy remedy;
@@ -30,8 +24,8 @@ struct PolygonBlemish {
 ///
 /// Returns what is wrong, or null: a polygon whose corners lie on one line has no triangles; one
 /// whose edges cross or whose boundary folds over is a fan from its first corner, as is one that
-/// takes more than `work` for each corner.
-const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::int64_t work,
+/// takes too many comparisons for a file of so many bytes.
+const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::size_t file_bytes,
                                     std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 }  // namespace rt
