@@ -90,7 +90,7 @@ class Fails(WrongDriver):
         self.assertEqual(got["device"]["fallback_from"], got["devices"][0]["name"])
         self.assertIn("CL_OUT_OF_RESOURCES", got["devices"][0]["failure"])
 
-    def test_in_a_share_that_began_anew(self):
+    def test_in_a_share_that_starts_over(self):
         """What it finished is in the journal, whatever was there before."""
         part = str(self.folder / "part.mbj")
         share = ["--shard", "0/1", "--fresh", "-o", part, *self.TILES]
