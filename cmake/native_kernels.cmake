@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The kernels compiled ahead of time for pthreads (kernels/native): one object a variant, and a table
-# of them all. native_kernels(TABLE OBJECTS) puts the table's path and the objects' into these
-# variables. GCC knows no OpenCL C, so clang compiles them whatever builds the host.
+# add_native_kernels(LIBRARY): the kernels compiled ahead of time for pthreads (kernels/native), one object a
+# variant, and native_table.h, a table of them all. GCC knows no OpenCL C, so clang compiles them whatever builds the host.
 option(MIRRORBALL_NATIVE "Compile kernels for pthreads; without them, pictures need an OpenCL device" ON)
 if(MIRRORBALL_NATIVE)
     find_program(KERNEL_CLANG NAMES clang-19 clang-20 clang-18 clang-17 clang)
@@ -98,7 +97,7 @@ function(compile_native_kernel OBJECT SOURCE NAME)
         COMMENT "Compiling ${NAME}" VERBATIM)
 endfunction()
 
-function(native_kernels TABLE OBJECTS)
+function(add_native_kernels LIBRARY)
     set(folder ${CMAKE_BINARY_DIR}/native)
     if(NOT MIRRORBALL_NATIVE)
         set(MIRRORBALL_ISAS "")
@@ -161,6 +160,8 @@ function(native_kernels TABLE OBJECTS)
 #define RT_NATIVE_DOUBLE(X) \\
 @names_double@
 " @ONLY)
-    set(${TABLE} ${folder} PARENT_SCOPE)
-    set(${OBJECTS} ${objects} PARENT_SCOPE)
+    add_library(${LIBRARY} STATIC ${table} ${objects})
+    set_source_files_properties(${objects} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+    set_target_properties(${LIBRARY} PROPERTIES LINKER_LANGUAGE CXX)
+    target_include_directories(${LIBRARY} INTERFACE ${folder})
 endfunction()
