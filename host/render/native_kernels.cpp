@@ -67,8 +67,6 @@ std::span<const NativeKernels<double>> all_kernels() {
 bool processor_has([[maybe_unused]] const std::string& isa) {
 #ifdef __x86_64__
     if (isa == "x86-64") return true;
-    if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) return false;
-    if (isa == "x86-64-v2") return true;
     if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
         !__builtin_cpu_supports("bmi") || !__builtin_cpu_supports("bmi2")) {
         return false;
@@ -110,7 +108,7 @@ std::vector<std::string> native_isas() {
     return isas;
 }
 
-bool has_fast_fma(const std::string& isa) { return isa != "x86-64-v2" && isa != "x86-64"; }
+bool has_fast_fma(const std::string& isa) { return isa != "x86-64"; }
 
 template <typename T>
 const NativeKernels<T>& choose_native(const KernelChoice& choice, int samples) {

@@ -34,7 +34,7 @@ class Fault:
 def one_isa():
     """Native kernels for one instruction set: a change to the kernels compiles them all again."""
     with_avx2 = " avx2 " in (pathlib.Path("/proc/cpuinfo").read_text() + " ")
-    return ["-DMIRRORBALL_ISAS=x86-64-v3"] if with_avx2 else []
+    return ["-DMIRRORBALL_NATIVE_ISAS=x86-64-v3"] if with_avx2 else []
 
 
 class Tree:
