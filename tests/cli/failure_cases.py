@@ -163,7 +163,7 @@ class KernelCache(CliTest):
 
     def render_on_pocl(self, **env):
         self.succeed("render", scene_path("single-sphere"), "--size", "8", "--device",
-                     "pocl", "--no-fallback", "-q",
+                     "pocl", "--lanes", "1", "--no-fallback", "-q",
                      env=dict({"XDG_CACHE_HOME": str(self.folder / "home")}, **env))
         return self.folder / "home" / "mirrorball" / "pocl"
 
@@ -189,7 +189,7 @@ class KernelCache(CliTest):
             place.mkdir(parents=True)
             place.chmod(0o777)
         result = self.succeed("render", scene_path("single-sphere"), "--size", "8", "--device",
-                              "pocl", "--no-fallback", "-q",
+                              "pocl", "--lanes", "1", "--no-fallback", "-q",
                               env={"POCL_CACHE_DIR": str(shared), "XDG_CACHE_HOME": "", "HOME": "",
                                    "TMPDIR": str(folder.parent), "LD_DEBUG": "files"})
         self.assertRegex(result.stderr, f"{folder.parent}/mirrorball.tmp[^ ]*/[^ ]*\\.so")
