@@ -113,8 +113,8 @@ TEST(PictureJournal, DiscardsWhatIsBeingWritten) {
     stats.picture.region = {0, 0, 2048, 2048};
     const FlatScene<float> scene = flatten<float>(load_named_scene("empty"));
     const Film<float> film(2048, 2048);
-    PictureJournal<float> journal(settings, stats, scene, "", [](const std::string&) {});
-    journal.begin(film, "device");
+    PictureJournal<float> journal(settings, stats, scene, {}, [](const std::string&) {});
+    journal.begin(film);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     journal.tile_finished(stats.picture.region);
     journal.discard();

@@ -16,27 +16,10 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/text.h"
-#include "host/image/built_in_formats.h"
 
 namespace rt {
 
 namespace {
-
-/// Who holds the lock: the last process to write to it.
-std::string holder(const std::string& path) {
-    JournalWriterInfo last;
-    try {
-        InputFile file = open_input_file(path);
-        JournalReader reader(file.stream, file.size);
-        while (const auto record = reader.next()) {
-            if (record->kind == RecordKind::writer) last = record->writer;
-        }
-    } catch (const Error&) {
-    }
-    if (last.process == 0) return "another process";
-    return fmt::format("process {} on {}", last.process, printable(last.host));
-}
 
 constexpr std::chrono::seconds period{1};
 
@@ -59,9 +42,9 @@ void JournalFile::open_existing() {
     if (::fstat(file.number(), &status) != 0) return;
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (!is_ours) {
-        throw Error(ExitCode::output, fmt::format("{}: {} is rendering this picture; wait for it "
-                                                  "to finish, or choose another output",
-                                                  path_, holder(path_)));
+        throw Error(ExitCode::output, path_ +
+                                          ": another process is rendering this picture; wait for "
+                                          "it to finish, or choose another output");
     }
     char magic[journal_magic.size()];
     const ssize_t got = ::pread(file.number(), magic, sizeof(magic), 0);
@@ -167,12 +150,10 @@ void JournalFile::remove() {
 }
 
 template <typename T>
-JournalKeeper<T>::JournalKeeper(JournalFile& file, const JournalWriterInfo& writer,
-                                const Film<T>& film, const Rect& shown, double delay, bool claims,
-                                std::function<void()> failed)
+JournalKeeper<T>::JournalKeeper(JournalFile& file, const Film<T>& film, const Rect& shown,
+                                double delay, bool claims, std::function<void()> failed)
     : file_(file), film_(film), shown_(shown), delay_(delay), failed_(std::move(failed)) {
-    append_writer(writer_, writer);
-    if (claims) file_.append(std::exchange(writer_, {}));
+    if (claims) file_.append({});
     if (!file_.failure().empty()) failed_();
 }
 
@@ -224,7 +205,6 @@ void JournalKeeper<T>::write(bool is_last) {
     {
         const std::scoped_lock lock(mutex_);
         if (tiles_.empty() && !is_last) return;
-        records.swap(writer_);
         tiles.swap(tiles_);
     }
     for (const Rect& tile : tiles) {

@@ -80,12 +80,11 @@ class JournalFile {
 template <typename T>
 class JournalKeeper {
    public:
-    /// `writer` identifies this process, at once if it `claims` the file. The film covers `shown`
-    /// and must outlive this. `failed` is called when nothing can be written, here or later on the
-    /// thread; if it throws Error, so do tile_finished from then on, as when another process has
-    /// created the file.
-    JournalKeeper(JournalFile& file, const JournalWriterInfo& writer, const Film<T>& film,
-                  const Rect& shown, double delay, bool claims, std::function<void()> failed);
+    /// The film covers `shown` and must outlive this. Creates the file at once if it `claims` it.
+    /// `failed` is called when nothing can be written, here or later on the thread; if it throws
+    /// Error, so do tile_finished from then on, as when another process has created the file.
+    JournalKeeper(JournalFile& file, const Film<T>& film, const Rect& shown, double delay,
+                  bool claims, std::function<void()> failed);
     JournalKeeper(const JournalKeeper&) = delete;
     JournalKeeper& operator=(const JournalKeeper&) = delete;
 
@@ -114,9 +113,8 @@ class JournalKeeper {
     const double delay_;
     const std::function<void()> failed_;
     const Stopwatch watch_;
-    std::mutex mutex_;               ///< guards what follows
-    std::vector<Rect> tiles_;        ///< finished, not yet copied
-    std::vector<std::byte> writer_;  ///< precedes the first records; empty once it is written
+    std::mutex mutex_;         ///< guards what follows
+    std::vector<Rect> tiles_;  ///< finished, not yet copied
     bool has_pixels_ = false;
     std::exception_ptr failure_;  ///< Error that ends the render
     std::condition_variable_any stopped_;

@@ -25,30 +25,19 @@ struct RecordHead {
 };
 static_assert(sizeof(RecordHead) == 12 && sizeof(Rect) == 16, "they are stored as they are");
 
-constexpr std::size_t most_text_bytes = 1 << 16;  // of a header or writer
+constexpr std::size_t most_header_bytes = 1 << 16;
 
 void append(std::vector<std::byte>& bytes, std::span<const std::byte> more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-template <typename T>
-void append_json(std::vector<std::byte>& bytes, RecordKind kind, const T& x) {
-    const std::string text = json_of(x).dump(-1, ' ', false, Json::error_handler_t::replace);
-    append_record(bytes, kind, std::as_bytes(std::span(text)));
-}
-
-template <typename T>
-void parse_json(std::span<const std::byte> body, T& x) {
-    const std::string_view text(reinterpret_cast<const char*>(body.data()), body.size());
-    read_json(Json::parse(text, nullptr, false), x);
-}
-
 /// Throws Error (ExitCode::input) describing the problem, without a file name.
 JournalHeader parse_header(std::span<const std::byte> body) {
+    const std::string_view text(reinterpret_cast<const char*>(body.data()), body.size());
     JournalHeader header;
     std::string what;
     try {
-        parse_json(body, header);
+        read_json(Json::parse(text, nullptr, false), header);
         const PictureSpec& picture = header.picture;
         const int side = std::max(picture.width, picture.height);
         const Rect whole{0, 0, picture.width, picture.height};
@@ -62,16 +51,6 @@ JournalHeader parse_header(std::span<const std::byte> body) {
     }
     if (what.empty()) return header;
     throw Error(ExitCode::input, "its header is damaged (" + what + "); render it again");
-}
-
-/// Whatever fields can be parsed, for messages.
-JournalWriterInfo parse_writer(std::span<const std::byte> body) {
-    JournalWriterInfo writer;
-    try {
-        parse_json(body, writer);
-    } catch (const Error&) {
-    }
-    return writer;
 }
 
 }  // namespace
@@ -92,14 +71,11 @@ void append_record(std::vector<std::byte>& bytes, RecordKind kind,
     append(bytes, body);
 }
 
-void append_writer(std::vector<std::byte>& bytes, const JournalWriterInfo& writer) {
-    append_json(bytes, RecordKind::writer, writer);
-}
-
 std::vector<std::byte> journal_start(const JournalHeader& header) {
     std::vector<std::byte> bytes;
     append(bytes, std::as_bytes(std::span(journal_magic)));
-    append_json(bytes, RecordKind::header, header);
+    const std::string text = json_of(header).dump(-1, ' ', false, Json::error_handler_t::replace);
+    append_record(bytes, RecordKind::header, std::as_bytes(std::span(text)));
     return bytes;
 }
 
@@ -135,7 +111,7 @@ bool JournalReader::read_record() {
     body_.resize(head.bytes);
     if (!stream_.read(reinterpret_cast<char*>(body_.data()), head.bytes)) return false;
     if (record_crc(kind_, body_) != head.crc) return false;
-    if (kind_ == RecordKind::header && head.bytes > most_text_bytes) return false;
+    if (kind_ == RecordKind::header && head.bytes > most_header_bytes) return false;
     good_bytes_ += sizeof(head) + head.bytes;
     return true;
 }
@@ -144,11 +120,6 @@ bool JournalReader::interpret(JournalRecord& record) const {
     const std::span<const std::byte> body(body_);
     record.kind = kind_;
     if (kind_ == RecordKind::finished) return body.empty();
-    if (kind_ == RecordKind::writer) {
-        if (body.size() > most_text_bytes) return false;
-        record.writer = parse_writer(body);
-        return true;
-    }
     if (kind_ != RecordKind::tile || body.size() < sizeof(Rect)) return false;
     std::memcpy(&record.rect, body.data(), sizeof(Rect));
     record.values = body.subspan(sizeof(Rect));

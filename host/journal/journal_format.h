@@ -19,25 +19,26 @@
 //
 // The file is 8 bytes of magic and then records, little-endian:
 //     u32 kind, u32 bytes of the body, u32 CRC-32 of kind, bytes and body; body
-// The header comes first, once; a `writer` record precedes what one process wrote. Later records
-// override earlier ones. Nothing after the first bad record is read.
+// The header comes first, once. Later records override earlier ones. Nothing after the first bad
+// record is read.
 namespace rt {
 
-inline constexpr std::string_view journal_magic = "MBJRNL03";  ///< the last two: its version
+inline constexpr std::string_view journal_magic = "MBJRNL04";  ///< the last two: its version
 
 enum class RecordKind : std::uint32_t {
     header = 1,   ///< JSON: JournalHeader
-    writer = 2,   ///< JSON: JournalWriterInfo
     tile = 3,     ///< i32 x, y, width, height in the picture; its pixels, three numbers each
     finished = 5  ///< the whole picture, or all its shares, is here; no body
 };
 
-/// What picture a journal belongs to.
+/// What picture a journal belongs to, and who began it.
 struct JournalHeader {
-    std::uint64_t key = 0;  ///< equal keys mean bit-identical pictures: picture_key
+    std::uint64_t key = 0;  ///< of all that the bits of a picture depend on, except its devices
     PictureSpec picture;
     std::string shares;             ///< as to_string(Shares)
     std::string scene, scene_hash;  ///< as a picture's metadata have them
+    std::string inexact_devices;    ///< those that may round differently, a line each
+    std::string writer;             ///< "threads on HOST", for messages
 
     bool is_double() const { return picture.precision == Precision::float64; }
     std::size_t pixel_bytes() const { return 3 * (is_double() ? 8 : 4); }
@@ -51,20 +52,8 @@ void describe(A& a, X& x) {
     a("shares", x.shares, "");
     a("scene", x.scene, "");
     a("scene_hash", x.scene_hash, "");
-}
-
-/// Which process wrote the records that follow.
-struct JournalWriterInfo {
-    std::string host, device, version;
-    int process = 0;
-};
-
-template <typename A, Of<JournalWriterInfo> X>
-void describe(A& a, X& x) {
-    a("host", x.host, "");
-    a("device", x.device, "");
-    a("version", x.version, "");
-    a("process", x.process, "");
+    a("inexact_devices", x.inexact_devices, "");
+    a("writer", x.writer, "");
 }
 
 /// A record's CRC-32 (as in zlib).
@@ -72,7 +61,6 @@ std::uint32_t record_crc(RecordKind kind, std::span<const std::byte> body);
 
 /// Appends a record to `bytes`.
 void append_record(std::vector<std::byte>& bytes, RecordKind kind, std::span<const std::byte> body);
-void append_writer(std::vector<std::byte>& bytes, const JournalWriterInfo& writer);
 
 /// The bytes that a journal begins with: the magic and the header's record.
 std::vector<std::byte> journal_start(const JournalHeader& header);
@@ -83,7 +71,6 @@ struct JournalRecord {
     RecordKind kind;
     Rect rect;                          ///< of tile
     std::span<const std::byte> values;  ///< of tile: three numbers per pixel
-    JournalWriterInfo writer;           ///< of writer
 };
 
 /// Calls visit(index of its first pixel in the film, its values) with each row of a tile; of other

@@ -127,9 +127,9 @@ void read_part(const std::string& path, const Read& read) {
 
 void check_same_picture(const JournalHeader& header, const std::string& first_path,
                         const JournalHeader& first) {
-    if (header.key == first.key && header.picture == first.picture) {
-        return;
-    }
+    const bool is_same = header.key == first.key && header.picture == first.picture &&
+                         header.inexact_devices == first.inexact_devices;
+    if (is_same) return;
     const auto what = [&]() -> std::string {
         if (header.scene_hash != first.scene_hash) return "the scene differs";
         if (header.picture != first.picture) return "the settings differ";
@@ -151,11 +151,8 @@ class Merger {
           owner_(static_cast<std::size_t>(region_.pixels()), -1) {}
 
     void add(const std::string& path, JournalReader& reader, std::vector<std::string>& notes) {
-        parts_.push_back({path, {}});
+        parts_.push_back(fmt::format("{} ({})", path, printable(reader.header().writer)));
         while (const auto record = reader.next()) {
-            if (record->kind == RecordKind::writer) {
-                parts_.back().writers.push_back(record->writer);
-            }
             for_each_row(*record, region_, [&](std::size_t at, std::span<const std::byte> row) {
                 for (; !row.empty(); row = row.subspan(pixel_bytes)) take_pixel(at++, row.data());
             });
@@ -180,38 +177,23 @@ class Merger {
     }
 
    private:
-    struct Part {
-        std::string path;
-        std::vector<JournalWriterInfo> writers;
-    };
-
     static constexpr std::size_t pixel_bytes = 3 * sizeof(T);
 
     /// Throws Error where another part's pixel differs.
     void take_pixel(std::size_t i, const std::byte* values) {
-        const auto part = static_cast<int>(parts_.size()) - 1;
+        const std::size_t part = parts_.size() - 1;
         if (owner_[i] < 0) {
-            owner_[i] = part;
+            owner_[i] = static_cast<int>(part);
             std::memcpy(&film_.rgb[3 * i], values, pixel_bytes);
         } else if (std::memcmp(&film_.rgb[3 * i], values, pixel_bytes) != 0) {
             const auto width = static_cast<std::size_t>(region_.width);
             throw Error(ExitCode::different,
                         fmt::format("{} and {} differ at {},{}; one of the devices is wrong: "
                                     "render both shares again",
-                                    described(owner_[i]), described(part),
+                                    parts_[static_cast<std::size_t>(owner_[i])], parts_[part],
                                     static_cast<std::size_t>(region_.x) + i % width,
                                     static_cast<std::size_t>(region_.y) + i / width));
         }
-    }
-
-    std::string described(int number) const {
-        const Part& part = parts_[static_cast<std::size_t>(number)];
-        std::string who;
-        for (const JournalWriterInfo& writer : part.writers) {
-            const std::string one = printable(writer.device + " on " + writer.host);
-            if (who.find(one) == who.npos) who += (who.empty() ? "" : ", ") + one;
-        }
-        return who.empty() ? part.path : fmt::format("{} ({})", part.path, who);
     }
 
     /// Which shares, out of `of`, have missing pixels.
@@ -232,8 +214,8 @@ class Merger {
 
     const Rect region_;
     Film<T> film_;
-    std::vector<int> owner_;  ///< index of the part that each pixel came from; -1: none
-    std::vector<Part> parts_;
+    std::vector<int> owner_;          ///< index of the part that each pixel came from; -1: none
+    std::vector<std::string> parts_;  ///< "a.mbj (threads on HOST)"
 };
 
 template <typename T>

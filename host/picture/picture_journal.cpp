@@ -13,6 +13,7 @@
 #include "host/base/text.h"
 #include "host/base/version.h"
 #include "host/opencl/cl_renderer.h"
+#include "host/picture/crew.h"
 
 namespace rt {
 
@@ -23,20 +24,12 @@ std::string host_name() {
     return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
 }
 
-/// The device that wrote the first records; "" if there is none.
-std::string first_writer(JournalReader& reader) {
-    while (const auto record = reader.next()) {
-        if (record->kind == RecordKind::writer) return record->writer.device;
-    }
-    return "";
-}
-
 }  // namespace
 
 template <typename T>
 PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                                  const FlatScene<T>& scene, std::string_view inexact_devices,
-                                  Say say)
+                                  const FlatScene<T>& scene,
+                                  const std::vector<DeviceChoice>& devices, Say say)
     : settings_(settings),
       scene_(scene),
       aa_(stats.picture.aa),
@@ -49,18 +42,19 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     header_.shares = to_string(settings.shares.value_or(Shares{}));
     header_.scene = stats.scene.name;
     header_.scene_hash = hash_text(stats.scene.hash);
-    header_.key = key(inexact_devices);
+    header_.inexact_devices = inexact_names(devices);
+    header_.writer = joined_names(devices) + " on " + host_name();
+    header_.key = key();
     open();
 }
 
 /// Hashes all that the film's bits depend on: the scene, how it is sampled, and the program. Not on
 /// hierarchies, which also order the flat scene's arrays.
 template <typename T>
-std::uint64_t PictureJournal<T>::key(std::string_view inexact_devices) const {
+std::uint64_t PictureJournal<T>::key() const {
     Hasher hasher;
     hasher.add(std::string_view(version));
     hasher.add(std::string_view(render_kernels));
-    hasher.add(inexact_devices);
     hasher.add(sizeof(T));
     hasher.add(std::string_view(header_.scene_hash));
     auto params = scene_.params;
@@ -111,17 +105,12 @@ void PictureJournal<T>::read() {
     const auto read_if_ours = [&](JournalReader& reader) {
         const JournalHeader& header = reader.header();
         if (header.shares != header_.shares || header.picture.region != region_) return;
-        if (header.key != header_.key) {
-            const std::string writer = first_writer(reader);
-            is_ours_ = header.key == key(writer + "\n");
-            if (is_ours_ && !settings_.fresh) {
-                say_(file_->path() + " is by " + writer +
-                     ", which may round differently; starting over");
-            }
-            return;
+        is_ours_ = header.key == header_.key;
+        if (!is_ours_ || settings_.fresh) return;
+        if (header.inexact_devices != header_.inexact_devices) {
+            return say_(file_->path() + " is by " + header.writer +
+                        ", which may round differently; starting over");
         }
-        is_ours_ = true;
-        if (settings_.fresh) return;
         known_ = read_known_pixels<T>(reader);
         damaged_bytes = reader.bytes() - reader.good_bytes();
     };
@@ -170,12 +159,11 @@ std::vector<Rect> PictureJournal<T>::shared_tiles(int width, int height) const {
 }
 
 template <typename T>
-void PictureJournal<T>::begin(const Film<T>& film, const std::string& device) {
+void PictureJournal<T>::begin(const Film<T>& film) {
     if (!file_) return;
-    const JournalWriterInfo writer{host_name(), device, version, static_cast<int>(::getpid())};
     const double delay = settings_.shares ? 0 : settings_.journal_delay;
-    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, region_, delay,
-                                                 delay == 0 || known_, [this] { tell_failure(); });
+    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, film, region_, delay, delay == 0 || known_,
+                                                 [this] { tell_failure(); });
 }
 
 /// Shares that cannot be written are not worth rendering.

@@ -9,6 +9,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/journal/journal_file.h"
+#include "host/opencl/devices.h"
 #include "host/picture/render_settings.h"
 #include "host/picture/render_stats.h"
 #include "host/render/rect.h"
@@ -22,12 +23,12 @@ class PictureJournal {
    public:
     using Say = std::function<void(const std::string& line)>;
 
-    /// Opens settings.journal. `inexact_devices` names those whose bits may differ: only they may
-    /// resume from what they render. `stats` describes the picture. Throws Error: output if another
-    /// process renders the same picture, or if the result of shares would replace something else;
-    /// usage for shares that cannot be kept.
+    /// Opens settings.journal. `devices` render the picture: what inexact ones have rendered, only
+    /// they resume. `stats` describes the picture. Throws Error: output if another process renders
+    /// the same picture, or if the result of shares would replace something else; usage for shares
+    /// that cannot be kept.
     PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                   const FlatScene<T>& scene, std::string_view inexact_devices, Say say);
+                   const FlatScene<T>& scene, const std::vector<DeviceChoice>& devices, Say say);
 
     /// Whether the file holds this picture, as far as it is saved.
     bool has_begun() const { return file_ && file_->exists(); }
@@ -47,10 +48,10 @@ class PictureJournal {
     /// All of them, known or not.
     std::vector<Rect> shared_tiles(int width, int height) const;
 
-    /// Starts saving what is finished of this film. `device`: who renders it. Throws Error (output)
-    /// if another process has begun the same picture since, or shares cannot be saved;
-    /// tile_finished throws it if that turns out later.
-    void begin(const Film<T>& film, const std::string& device);
+    /// Starts saving what is finished of this film. Throws Error (output) if another process has
+    /// begun the same picture since, or shares cannot be saved; tile_finished throws it if that
+    /// turns out later.
+    void begin(const Film<T>& film);
     void tile_finished(const Rect& tile);
 
     /// Closes it, once what was rendered is known to be right. Throws Error (ExitCode::output) if
@@ -67,7 +68,7 @@ class PictureJournal {
     void read();
     void start_again();
     void tell_failure();
-    std::uint64_t key(std::string_view inexact_devices) const;
+    std::uint64_t key() const;
 
     const RenderSettings& settings_;
     const FlatScene<T>& scene_;

@@ -88,7 +88,7 @@ class Job {
         is_exact_ = settings_.math == Math::strict && inexact_names(devices).empty();
         if (!is_exact_) std::erase_if(devices, [](const auto& choice) { return choice.is_helper; });
         if (is_first_) warn_of(devices);
-        journal_.emplace(settings_, stats_, *scene_, inexact_names(devices), warn_);
+        journal_.emplace(settings_, stats_, *scene_, devices, warn_);
         stats_.resumed = journal_->share_known();
         if (journal_->is_finished()) {
             film_ = journal_->take_film();
@@ -123,7 +123,7 @@ class Job {
         try {
             if (events_.opening && has_opencl(devices)) events_.opening(joined_names(devices));
             crew.open();
-            render_with(crew, joined_names(devices));
+            render_with(crew);
         } catch (const Error& error) {
             const bool can_replace = !settings_.no_fallback && has_opencl(devices);
             if (!can_replace || error.exit_code() != ExitCode::device) throw;
@@ -149,16 +149,17 @@ class Job {
         settings_.kernels.lanes = 0;  // was for the devices
         if (journal_->has_begun()) settings_.fresh = false;
         film_ = Film<T>(0, 0);  // makes room for the journal's
-        journal_.emplace(settings_, stats_, *scene_, "", warn_);
+        const Devices threads{threads_choice()};
+        journal_.emplace(settings_, stats_, *scene_, threads, warn_);
         stats_.resumed = journal_->share_known();
-        render_by({threads_choice()});
+        render_by(threads);
         shares.push_back(stats_.shares.front());
         stats_.shares = std::move(shares);
         stats_.device.fallback_from = devices;
     }
 
-    /// Renders the region; a device that fails is left out afterwards. `names`: who renders.
-    void render_with(Crew<T>& crew, const std::string& names) {
+    /// Renders the region; a device that fails is left out afterwards.
+    void render_with(Crew<T>& crew) {
         constexpr std::size_t floats = 3 * sizeof(float);
         constexpr std::size_t copy = sizeof(T) == sizeof(float) ? 0 : floats;
         const std::size_t viewers = events_.rendered ? 2 * floats : 0;  // LivePicture's
@@ -171,7 +172,7 @@ class Job {
         tile_ = tile_size(crew);
         if (events_.began) events_.began(region_.width, region_.height);
         if (stats_.resumed > 0) report_rendered(region_);
-        journal_->begin(film_, names);
+        journal_->begin(film_);
         TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_,
                         [this](const Rect& tile) { finish_tile(tile); });
         if (events_.started) events_.started(queue);

@@ -238,13 +238,13 @@ MUTANTS = [
         (J + "journal_format.cpp", "if (record_crc(kind_, body_) != head.crc) return false;", ""),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("a resumed picture takes another picture's journal", [
-        ("host/picture/picture_journal.cpp", "if (header.key != header_.key)", "if (false)"),
+        ("host/picture/picture_journal.cpp", "is_ours_ = header.key == header_.key;", "is_ours_ = true;"),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("two processes write one journal", [
         (J + "journal_file.cpp", "::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && ", "false && "),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("merge takes parts of other pictures", [
-        (J + "shares.cpp", "if (header.key == first.key && ", "if ("),
+        (J + "shares.cpp", "is_same = header.key == first.key && ", "is_same = "),
     ], cli("journal_cases.Shares.test_parts_that_are_none_are_refused")),
     Mutant("merge overlooks pixels that differ", [
         (J + "shares.cpp", "values, pixel_bytes) != 0) {", "values, pixel_bytes) > 999) {"),

@@ -218,8 +218,7 @@ class Resume(JournalTest):
                 first.kill()
                 stderr = second.stderr.read()
                 self.assertEqual(second.returncode, 4, stderr)
-                # Before its first record is written, the other has no number.
-                self.assertRegex(stderr, f"(process {first.pid} on .*|another process) is rendering")
+                self.assertIn("another process is rendering", stderr)
                 (self.folder / "out.png.mbj").unlink(missing_ok=True)
 
     def test_stays_for_its_picture_and_goes_with_it(self):
