@@ -22,6 +22,7 @@ namespace rt {
 namespace {
 
 constexpr std::chrono::seconds period{1};
+constexpr const char* is_of_another_process = ": another process is rendering this picture";
 
 bool is_start_of_magic(std::string_view bytes) {
     return bytes.size() < journal_magic.size() && journal_magic.starts_with(bytes);
@@ -42,9 +43,8 @@ void JournalFile::open_existing() {
     if (::fstat(file.number(), &status) != 0) return;
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (!is_ours) {
-        throw Error(ExitCode::output, path_ +
-                                          ": another process is rendering this picture; wait for "
-                                          "it to finish, or choose another output");
+        throw Error(ExitCode::output, path_ + is_of_another_process +
+                                          "; wait for it to finish, or choose another output");
     }
     char magic[journal_magic.size()];
     const ssize_t got = ::pread(file.number(), magic, sizeof(magic), 0);
@@ -87,17 +87,17 @@ void JournalFile::fail(const char* what, int error) {
         fmt::format("{}: cannot {}: {}", path_, what, std::generic_category().message(error));
 }
 
-/// Throws Error (ExitCode::output) when another process created it first and holds its lock.
+/// Fails when another process has created it since.
 bool JournalFile::create() {
-    file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (file_ && lock(file_)) return true;
-    const int error = file_ ? EEXIST : errno;
-    file_ = FileDescriptor();
-    if (error == EEXIST) open_existing();
-    end_ = 0;
-    if (file_) return true;
-    fail("create", error);
-    return false;
+    FileDescriptor file(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file && lock(file)) {
+        file_ = std::move(file);
+    } else if (file || errno == EEXIST) {
+        failure_ = path_ + is_of_another_process;
+    } else {
+        fail("create", errno);
+    }
+    return failure_.empty();
 }
 
 bool JournalFile::write_all(std::span<const std::byte> bytes) {
@@ -133,15 +133,6 @@ void JournalFile::append(std::span<const std::byte> records) {
     }
 }
 
-void JournalFile::empty() {
-    if (!file_) return;
-    if (::ftruncate(file_.number(), 0) != 0 || ::fdatasync(file_.number()) != 0) {
-        fail("empty", errno);
-        ::unlink(path_.c_str());
-    }
-    found_ = Found::nothing;
-}
-
 void JournalFile::remove() {
     if (!file_) return;
     const bool is_of_another_picture = !exists() && found_ == Found::journal;
@@ -151,10 +142,9 @@ void JournalFile::remove() {
 
 template <typename T>
 JournalKeeper<T>::JournalKeeper(JournalFile& file, const Film<T>& film, const Rect& shown,
-                                double delay, bool claims, std::function<void()> failed)
-    : file_(file), film_(film), shown_(shown), delay_(delay), failed_(std::move(failed)) {
+                                double delay, bool claims)
+    : file_(file), film_(film), shown_(shown), delay_(delay) {
     if (claims) file_.append({});
-    if (!file_.failure().empty()) failed_();
 }
 
 template <typename T>
@@ -163,38 +153,29 @@ void JournalKeeper<T>::keep(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     do {
         lock.unlock();
-        std::exception_ptr failure;
         try {
             write(false);
-            if (!file_.failure().empty()) failed_();
         } catch (const std::bad_alloc&) {
             file_.give_up("out of memory");
-        } catch (const Error&) {
-            failure = std::current_exception();
         }
         lock.lock();
-        failure_ = failure;
-    } while (!failure_ && !stopped_.wait_for(lock, stop, period, is_over));
-}
-
-/// Requires the mutex, or that the thread has ended.
-template <typename T>
-void JournalKeeper<T>::check() const {
-    if (failure_) std::rethrow_exception(failure_);
+        has_failed_ = !file_.failure().empty();
+    } while (!has_failed_ && !stopped_.wait_for(lock, stop, period, is_over));
 }
 
 template <typename T>
-void JournalKeeper<T>::tile_finished(const Rect& tile) {
+bool JournalKeeper<T>::tile_finished(const Rect& tile) {
     const std::scoped_lock lock(mutex_);
-    check();
     has_pixels_ = true;
+    if (has_failed_) return false;
     tiles_.push_back(tile);
-    if (has_thread_ || !is_time()) return;
+    if (has_thread_ || !is_time()) return true;
     has_thread_ = true;
     try {
         thread_ = std::jthread([this](const std::stop_token& stop) { keep(stop); });
     } catch (const std::system_error&) {
     }
+    return true;
 }
 
 /// The thread calls it, and close() after that has ended.
@@ -220,15 +201,9 @@ void JournalKeeper<T>::write(bool is_last) {
 }
 
 template <typename T>
-void JournalKeeper<T>::discard() {
+void JournalKeeper<T>::close(bool is_finished) {
     thread_.request_stop();
     if (thread_.joinable()) thread_.join();
-    check();
-}
-
-template <typename T>
-void JournalKeeper<T>::close(bool is_finished) {
-    discard();
     if (is_time()) write(is_finished);
 }
 

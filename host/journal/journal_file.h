@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <mutex>
 #include <span>
@@ -21,8 +20,8 @@
 namespace rt {
 
 /// An on-disk journal that one process appends to while holding a lock on it (flock). It is created
-/// with the first record. Later failures are stored as a message, not thrown: rendering continues
-/// without the journal.
+/// with the first record. Failures to write are stored as a message, not thrown: rendering
+/// continues without the journal.
 class JournalFile {
    public:
     /// What was found at the journal's path.
@@ -44,14 +43,11 @@ class JournalFile {
     /// Whether the file exists and holds this picture.
     bool exists() const { return file_ && start_.empty(); }
 
-    /// Appends whole records and flushes them to disk. Throws Error (ExitCode::output) when another
-    /// process has created it since, and holds its lock.
+    /// Appends whole records and flushes them to disk.
     void append(std::span<const std::byte> records);
 
-    /// Truncates the existing file at once; restart sets what is written next.
-    void empty();
-
     /// Removes the file, unless it holds another picture: restarted, and nothing written since.
+    /// What is appended then creates it anew.
     void remove();
 
     /// Stops writing and stores the reason.
@@ -81,28 +77,23 @@ template <typename T>
 class JournalKeeper {
    public:
     /// The film covers `shown` and must outlive this. Creates the file at once if it `claims` it.
-    /// `failed` is called when nothing can be written, here or later on the thread; if it throws
-    /// Error, so do tile_finished from then on, as when another process has created the file.
     JournalKeeper(JournalFile& file, const Film<T>& film, const Rect& shown, double delay,
-                  bool claims, std::function<void()> failed);
+                  bool claims);
     JournalKeeper(const JournalKeeper&) = delete;
     JournalKeeper& operator=(const JournalKeeper&) = delete;
 
-    /// A rectangle of the picture is now in the film. Callable from any thread.
-    void tile_finished(const Rect& tile);
+    /// A rectangle of the picture is now in the film. Callable from any thread. False if the file
+    /// has failed, to which nothing is written then.
+    bool tile_finished(const Rect& tile);
 
     /// Whether there ever was anything worth keeping.
     bool has_pixels() const { return has_pixels_; }
 
     /// Ends the thread and writes the rest, if `delay` has passed, and whether the journal is
-    /// finished. Rethrows the thread's errors.
+    /// finished. Without it, the rest is discarded.
     void close(bool is_finished);
 
-    /// Ends the thread and discards the rest. Rethrows the thread's errors.
-    void discard();
-
    private:
-    void check() const;
     void keep(const std::stop_token& stop);
     bool is_time() const { return watch_.seconds() >= delay_; }
     void write(bool is_last);
@@ -111,12 +102,11 @@ class JournalKeeper {
     const Film<T>& film_;
     const Rect shown_;
     const double delay_;
-    const std::function<void()> failed_;
     const Stopwatch watch_;
     std::mutex mutex_;         ///< guards what follows
     std::vector<Rect> tiles_;  ///< finished, not yet copied
     bool has_pixels_ = false;
-    std::exception_ptr failure_;  ///< Error that ends the render
+    bool has_failed_ = false;  ///< the file has
     std::condition_variable_any stopped_;
     bool has_thread_ = false;  ///< or failed to start it: close() then writes everything
     std::jthread thread_;

@@ -95,8 +95,8 @@ void PictureJournal<T>::open() {
             path +
             ": belongs to a different picture or version, or to different settings; starting over");
     }
-    if (!known_) start_again();
-    if (settings_.fresh && is_ours_) file_->empty();
+    if (settings_.fresh && is_ours_) file_->remove();
+    if (!known_) file_->restart(journal_start(header_));
 }
 
 template <typename T>
@@ -131,13 +131,6 @@ void PictureJournal<T>::read() {
 }
 
 template <typename T>
-void PictureJournal<T>::start_again() {
-    keeper_.reset();
-    known_.reset();
-    if (file_) file_->restart(journal_start(header_));
-}
-
-template <typename T>
 Film<T> PictureJournal<T>::take_film() {
     return known_ ? std::move(known_->film) : Film<T>(region_.width, region_.height);
 }
@@ -162,42 +155,39 @@ template <typename T>
 void PictureJournal<T>::begin(const Film<T>& film) {
     if (!file_) return;
     const double delay = settings_.shares ? 0 : settings_.journal_delay;
-    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, film, region_, delay, delay == 0 || known_,
-                                                 [this] { tell_failure(); });
+    keeper_ =
+        std::make_unique<JournalKeeper<T>>(*file_, film, region_, delay, delay == 0 || known_);
+    if (!file_->failure().empty()) tell_failure();
 }
 
 /// Shares that cannot be written are not worth rendering.
 template <typename T>
 void PictureJournal<T>::tell_failure() {
     if (settings_.shares) throw Error(ExitCode::output, file_->failure());
-    if (std::exchange(failure_is_told_, true)) return;
+    if (failure_is_told_.exchange(true)) return;
     say_(fmt::format("{}; {} are saved", file_->failure(),
                      file_->exists() ? "no more tiles" : "no tiles"));
 }
 
 template <typename T>
 void PictureJournal<T>::tile_finished(const Rect& tile) {
-    if (keeper_) keeper_->tile_finished(tile);
+    if (keeper_ && !keeper_->tile_finished(tile)) tell_failure();
 }
 
 template <typename T>
 void PictureJournal<T>::discard() {
     keeper_.reset();  // it may be writing the file's start
-    const bool is_ours = file_ && file_->exists();
-    start_again();
-    if (is_ours) file_->empty();
+    if (file_) file_->remove();
 }
 
 template <typename T>
 void PictureJournal<T>::end(bool is_complete) {
     if (!keeper_) return;
-    const auto keeper = std::move(keeper_);
-    if (is_complete && !settings_.shares) {
-        keeper->discard();
-    } else {
-        keeper->close(is_complete);
-        if (!settings_.shares && !known_ && !keeper->has_pixels()) file_->remove();
+    if (!is_complete || settings_.shares) {
+        keeper_->close(is_complete);
+        if (!settings_.shares && !known_ && !keeper_->has_pixels()) file_->remove();
     }
+    keeper_.reset();
     if (!file_->failure().empty()) tell_failure();
 }
 

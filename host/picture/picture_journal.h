@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -48,9 +49,8 @@ class PictureJournal {
     /// All of them, known or not.
     std::vector<Rect> shared_tiles(int width, int height) const;
 
-    /// Starts saving what is finished of this film. Throws Error (output) if another process has
-    /// begun the same picture since, or shares cannot be saved; tile_finished throws it if that
-    /// turns out later.
+    /// Starts saving what is finished of this film. Throws Error (output) if shares cannot be
+    /// saved; tile_finished throws it if that turns out later.
     void begin(const Film<T>& film);
     void tile_finished(const Rect& tile);
 
@@ -58,7 +58,7 @@ class PictureJournal {
     /// shares are not on disk.
     void end(bool is_complete);
 
-    /// Discards everything saved, in memory and on disk, because it was wrong.
+    /// Discards what is saved, because it was wrong, and saves nothing more.
     void discard();
 
     std::shared_ptr<JournalFile> file() const { return file_; }
@@ -66,7 +66,6 @@ class PictureJournal {
    private:
     void open();
     void read();
-    void start_again();
     void tell_failure();
     std::uint64_t key() const;
 
@@ -80,7 +79,7 @@ class PictureJournal {
     std::shared_ptr<JournalFile> file_;
     bool is_ours_ = false;  ///< what the file had: this picture, though perhaps with other bits
     std::optional<KnownPixels<T>> known_;
-    bool failure_is_told_ = false;
+    std::atomic<bool> failure_is_told_ = false;
     std::unique_ptr<JournalKeeper<T>> keeper_;
 };
 
