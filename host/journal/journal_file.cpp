@@ -7,11 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <fstream>
-#include <new>
 #include <system_error>
 #include <utility>
 
@@ -21,7 +18,6 @@ namespace rt {
 
 namespace {
 
-constexpr std::chrono::seconds period{1};
 constexpr const char* is_of_another_process = ": another process is rendering this picture";
 
 bool is_start_of_magic(std::string_view bytes) {
@@ -139,75 +135,5 @@ void JournalFile::remove() {
     if (!is_of_another_picture) ::unlink(path_.c_str());
     file_ = FileDescriptor();
 }
-
-template <typename T>
-JournalKeeper<T>::JournalKeeper(JournalFile& file, const Film<T>& film, const Rect& shown,
-                                double delay, bool claims)
-    : file_(file), film_(film), shown_(shown), delay_(delay) {
-    if (claims) file_.append({});
-}
-
-template <typename T>
-void JournalKeeper<T>::keep(const std::stop_token& stop) {
-    const auto is_over = [&stop] { return stop.stop_requested(); };
-    std::unique_lock lock(mutex_);
-    do {
-        lock.unlock();
-        try {
-            write(false);
-        } catch (const std::bad_alloc&) {
-            file_.give_up("out of memory");
-        }
-        lock.lock();
-        has_failed_ = !file_.failure().empty();
-    } while (!has_failed_ && !stopped_.wait_for(lock, stop, period, is_over));
-}
-
-template <typename T>
-bool JournalKeeper<T>::tile_finished(const Rect& tile) {
-    const std::scoped_lock lock(mutex_);
-    has_pixels_ = true;
-    if (has_failed_) return false;
-    tiles_.push_back(tile);
-    if (has_thread_ || !is_time()) return true;
-    has_thread_ = true;
-    try {
-        thread_ = std::jthread([this](const std::stop_token& stop) { keep(stop); });
-    } catch (const std::system_error&) {
-    }
-    return true;
-}
-
-/// The thread calls it, and close() after that has ended.
-template <typename T>
-void JournalKeeper<T>::write(bool is_last) {
-    std::vector<std::byte> records, body;
-    std::vector<Rect> tiles;
-    {
-        const std::scoped_lock lock(mutex_);
-        if (tiles_.empty() && !is_last) return;
-        tiles.swap(tiles_);
-    }
-    for (const Rect& tile : tiles) {
-        const Film<T> part = part_of(film_, shown_, tile);
-        const auto rect = std::as_bytes(std::span(&tile, 1));
-        const auto values = std::as_bytes(std::span(part.rgb));
-        body.assign(rect.begin(), rect.end());
-        body.insert(body.end(), values.begin(), values.end());
-        append_record(records, RecordKind::tile, body);
-    }
-    if (is_last) append_record(records, RecordKind::finished, {});
-    file_.append(records);
-}
-
-template <typename T>
-void JournalKeeper<T>::close(bool is_finished) {
-    thread_.request_stop();
-    if (thread_.joinable()) thread_.join();
-    if (is_time()) write(is_finished);
-}
-
-template class JournalKeeper<float>;
-template class JournalKeeper<double>;
 
 }  // namespace rt

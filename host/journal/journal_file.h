@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <span>
 #include <stop_token>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -78,25 +81,78 @@ class JournalKeeper {
    public:
     /// The film covers `shown` and must outlive this. Creates the file at once if it `claims` it.
     JournalKeeper(JournalFile& file, const Film<T>& film, const Rect& shown, double delay,
-                  bool claims);
+                  bool claims)
+        : file_(file), film_(film), shown_(shown), delay_(delay) {
+        if (claims) file_.append({});
+    }
     JournalKeeper(const JournalKeeper&) = delete;
     JournalKeeper& operator=(const JournalKeeper&) = delete;
 
     /// A rectangle of the picture is now in the film. Callable from any thread. False if the file
     /// has failed, to which nothing is written then.
-    bool tile_finished(const Rect& tile);
+    bool tile_finished(const Rect& tile) {
+        const std::scoped_lock lock(mutex_);
+        has_pixels_ = true;
+        if (has_failed_) return false;
+        tiles_.push_back(tile);
+        if (has_thread_ || !is_time()) return true;
+        has_thread_ = true;
+        try {
+            thread_ = std::jthread([this](const std::stop_token& stop) { keep(stop); });
+        } catch (const std::system_error&) {
+        }
+        return true;
+    }
 
     /// Whether there ever was anything worth keeping.
     bool has_pixels() const { return has_pixels_; }
 
     /// Ends the thread and writes the rest, if `delay` has passed, and whether the journal is
     /// finished. Without it, the rest is discarded.
-    void close(bool is_finished);
+    void close(bool is_finished) {
+        thread_.request_stop();
+        if (thread_.joinable()) thread_.join();
+        if (is_time()) write(is_finished);
+    }
 
    private:
-    void keep(const std::stop_token& stop);
+    void keep(const std::stop_token& stop) {
+        const auto is_over = [&stop] { return stop.stop_requested(); };
+        std::unique_lock lock(mutex_);
+        do {
+            lock.unlock();
+            try {
+                write(false);
+            } catch (const std::bad_alloc&) {
+                file_.give_up("out of memory");
+            }
+            lock.lock();
+            has_failed_ = !file_.failure().empty();
+        } while (!has_failed_ && !stopped_.wait_for(lock, stop, std::chrono::seconds(1), is_over));
+    }
+
     bool is_time() const { return watch_.seconds() >= delay_; }
-    void write(bool is_last);
+
+    /// The thread calls it, and close() after that has ended.
+    void write(bool is_last) {
+        std::vector<Rect> tiles;
+        {
+            const std::scoped_lock lock(mutex_);
+            if (tiles_.empty() && !is_last) return;
+            tiles.swap(tiles_);
+        }
+        std::vector<std::byte> records, body;
+        for (const Rect& tile : tiles) {
+            const Film<T> part = part_of(film_, shown_, tile);
+            const auto rect = std::as_bytes(std::span(&tile, 1));
+            const auto values = std::as_bytes(std::span(part.rgb));
+            body.assign(rect.begin(), rect.end());
+            body.insert(body.end(), values.begin(), values.end());
+            append_record(records, RecordKind::tile, body);
+        }
+        if (is_last) append_record(records, RecordKind::finished, {});
+        file_.append(records);
+    }
 
     JournalFile& file_;
     const Film<T>& film_;

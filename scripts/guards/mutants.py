@@ -238,7 +238,7 @@ MUTANTS = [
         (J + "journal_format.cpp", "if (record_crc(kind_, body_) != head.crc) return false;", ""),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("a resumed picture takes another picture's journal", [
-        ("host/picture/picture_journal.cpp", "is_ours_ = header.key == header_.key;", "is_ours_ = true;"),
+        ("host/picture/picture_journal.h", "is_ours_ = header.key == header_.key;", "is_ours_ = true;"),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("two processes write one journal", [
         (J + "journal_file.cpp", "::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && ", "false && "),
