@@ -146,16 +146,6 @@ TEST(ParseNffScene, AFileWithoutAnyShapeLeftIsRefused) {
     EXPECT_EQ(parse("").notes.size(), 0u);
 }
 
-/// This took the square of the number of lines.
-TEST(ParseNffScene, ManyRepeatedBackgroundsAreOneNote) {
-    std::string text;
-    for (int i = 0; i < 200000; ++i) text += "b 0 0 0\n";
-    const Scene scene = parse(text + "b 0 0 1\ns 0 0 0 1\n");
-    EXPECT_EQ(scene.background, glm::dvec3(0, 0, 1));
-    ASSERT_EQ(scene.notes.size(), 1u);
-    EXPECT_TRUE(scene.notes[0].ends_with("(200000 statements ignored)")) << scene.notes[0];
-}
-
 TEST(LoadScene, LightOverridesReplaceWhatIsLeftOpen) {
     const fs::path path = fs::temp_directory_path() / "mirrorball-light-override.NFF";
     std::ofstream(path) << view_text << "l 1 2 3\nl 1 2 3 0.5 0.5 0.5\n";

@@ -86,7 +86,7 @@ class NeutralFileFormat(CliTest):
                      ("converge",)]:
             with self.subTest(verb=verb):
                 result = self.run_cli(*verb, path)
-                self.assert_refused(result, 3, f"{path}:11:9: ", f"{path}:12:1: ", lines=2)
+                self.assert_refused(result, 3, f"{path}:11:1: ", f"{path}:12:1: ", lines=2)
 
     def test_light_is_half_and_may_be_set(self):
         path = self.write_text("ball.nff", self.TEXT)
