@@ -14,11 +14,7 @@
 namespace rt {
 namespace {
 
-/// Elements, or properties of one: no model has a header with more.
-constexpr std::size_t max_declared = 1000;
-
 constexpr Remedy header_ignored{"line ignored", "lines ignored"};
-constexpr Remedy version_ignored = header_ignored;
 
 /// Each type has two names.
 constexpr std::string_view type_names[] = {
@@ -48,18 +44,6 @@ class HeaderReader {
         mistakes_.throw_if_any();
     }
 
-    /// Data follows the last line and may begin with any byte. So a line feed after a carriage
-    /// return belongs to the line, unless the header's lines end with carriage returns alone.
-    void skip_last_line_end() {
-        const std::string_view text = mistakes_.text();
-        const std::size_t first_end = std::min(text.find_first_of("\r\n"), text.size());
-        const bool only_returns =
-            text.substr(first_end, 1) == "\r" && text.substr(first_end, 2) != "\r\n";
-        scanner_.rest();
-        if (scanner_.bytes_left() == 0) return;
-        scanner_.advance(!only_returns && scanner_.left().starts_with("\r\n") ? 2 : 1);
-    }
-
     void read_lines() {
         while (true) {
             scanner_.next_line();
@@ -68,7 +52,10 @@ class HeaderReader {
             }
             offset_ = scanner_.offset();
             const std::string_view word = scanner_.word();
-            if (word == "end_header") return skip_last_line_end();
+            if (word == "end_header") {
+                scanner_.rest();  // is no comment, for data follows
+                return scanner_.next_line();
+            }
             read_line(word);
         }
     }
@@ -84,20 +71,13 @@ class HeaderReader {
     void read_format() {
         constexpr std::string_view names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
         const std::size_t offset = scanner_.word_offset();
-        const std::string_view name = scanner_.word(), version = scanner_.word();
+        const std::string_view name = scanner_.word();
         const auto found = std::ranges::find(names, name);
-        const auto format = static_cast<PlyFormat>(found - std::begin(names));
         if (found == std::end(names)) {
             mistakes_.add(offset, "unknown format {}; known formats are {}", in_quotes(name),
                           word_list(names));
-        } else if (has_format_ && format != header_.format) {
-            mistakes_.add(offset_, "the format is given twice; keep one");
-        } else if (has_format_ || version != "1.0") {
-            mistakes_.note(version_ignored, offset,
-                           "the format is given twice, or its version is {} and not 1.0",
-                           in_quotes(version));
         }
-        header_.format = format;
+        header_.format = static_cast<PlyFormat>(found - std::begin(names));
         has_format_ = true;
     }
 
@@ -112,10 +92,6 @@ class HeaderReader {
                           in_quotes(element.name), found_text(scanner_, count));
         } else {
             element.count = static_cast<std::uint64_t>(*count);
-        }
-        if (header_.elements.size() >= max_declared) {
-            fail(offset_,
-                 fmt::format("more than {} elements; check that this is a PLY file", max_declared));
         }
         header_.elements.push_back(std::move(element));
     }
@@ -155,12 +131,7 @@ class HeaderReader {
         if (!type) return;
         property.type = *type;
         property.name = scanner_.word();
-        PlyElement& element = header_.elements.back();
-        if (element.properties.size() >= max_declared) {
-            fail(offset_, fmt::format("more than {} properties; check that this is a PLY file",
-                                      max_declared));
-        }
-        element.properties.push_back(std::move(property));
+        header_.elements.back().properties.push_back(std::move(property));
     }
 
     LineScanner scanner_;
@@ -216,11 +187,13 @@ void check_header(const PlyHeader& header, Mistakes& mistakes) {
                 check_vertex(element, mistakes);
             }
         } else if (element.name == "face" || element.name == "tristrips") {
-            ++faces;
+            if (faces++ == 0 && vertices == 0) {
+                mistakes.add(element.offset,
+                             "the header declares no element 'vertex' above this one; use a mesh");
+            }
             check_corners(element, header.format, mistakes);
         }
     }
-    if (vertices == 0) mistakes.add(0, "the header declares no element 'vertex'; use a mesh");
     if (faces == 0) {
         mistakes.add(0,
                      "the header declares no element 'face'; points alone cannot be drawn; use a "

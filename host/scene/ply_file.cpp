@@ -23,12 +23,11 @@ namespace {
 
 constexpr Remedy bad_ply_face{"face left out", "faces left out"};
 constexpr Remedy bad_ply_vertex = bad_ply_face;
-constexpr Remedy bad_strip_vertex = bad_ply_face;
+constexpr Remedy bad_strip_vertex{"strip cut", "strips cut"};
 constexpr Remedy bad_ply_normal{"normal ignored", "normals ignored"};
 constexpr Remedy bad_row{"row ignored", "rows ignored"};
 constexpr Remedy extra_value{"value ignored", "values ignored"};
-constexpr Remedy extra_line{"line ignored", "lines ignored"};
-constexpr Remedy extra_byte{"byte ignored", "bytes ignored"};
+constexpr Remedy extra_data{"end ignored", "ends ignored"};
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view column_names[] = {"x", "y", "z", "nx", "ny", "nz"};
@@ -115,7 +114,7 @@ class Rows {
           is_text_(header.format == PlyFormat::ascii),
           swapped_((header.format == PlyFormat::little_endian) !=
                    (std::endian::native == std::endian::little)),
-          mistakes_(&mistakes) {}
+          mistakes_(mistakes) {}
 
     bool is_text() const { return is_text_; }
     bool swapped() const { return swapped_; }
@@ -170,23 +169,15 @@ class Rows {
 
     /// Notes what is wrong with the row at hand.
     void note(const Remedy& remedy, std::string message, std::size_t count = 1) {
-        mistakes_->report(&remedy, start_, std::move(message), count, is_text_ ? "" : row_name());
+        mistakes_.report(&remedy, start_, std::move(message), count, is_text_ ? "" : row_name());
     }
 
-    /// Notes what follows the last row, save for a line end left by an editor or a program.
+    /// Notes what follows the last row.
     void note_rest() {
-        const char* message = "more data follows than the header declares; correct its counts";
-        constexpr std::size_t few = 4;
-        const bool is_blank = left().find_first_not_of("\r\n \t") == left().npos;
+        if (left().find_first_not_of("\r\n \t") == left().npos) return;
         start_ = scanner_.offset();
         element_ = nullptr;
-        if (!is_text_ && (left().size() > few || !is_blank)) {
-            return note(extra_byte, message, left().size());
-        }
-        for (; is_text_ && scanner_.find_word(); scanner_.next_line()) {
-            start_ = scanner_.offset();
-            note(extra_line, message);
-        }
+        note(extra_data, "more data follows than the header declares; correct its counts");
     }
 
    private:
@@ -198,13 +189,13 @@ class Rows {
     /// Gives the row up.
     void fail(std::string message, std::size_t count = 1) {
         is_good_ = false;
-        mistakes_->report(remedy_, scanner_.offset(), std::move(message),
-                          remedy_ == &bad_ply_vertex ? 0 : count, is_text_ ? "" : row_name());
+        mistakes_.report(remedy_, scanner_.offset(), std::move(message),
+                         remedy_ == &bad_ply_vertex ? 0 : count, is_text_ ? "" : row_name());
     }
 
     void refuse(std::string message) {
-        mistakes_->report(nullptr, scanner_.offset(), std::move(message), 1, row_name());
-        mistakes_->throw_if_any();
+        mistakes_.report(nullptr, scanner_.offset(), std::move(message), 1, row_name());
+        mistakes_.throw_if_any();
     }
 
     void read_property(const PlyProperty& property, bool is_wanted) {
@@ -260,15 +251,15 @@ class Rows {
     void end_line() {
         if (is_good_ && scanner_.word_follows()) {
             const std::size_t offset = scanner_.offset();
-            mistakes_->note(extra_value, offset, "unexpected {} after the values of {}; remove it",
-                            in_quotes(scanner_.word()), row_name());
+            mistakes_.note(extra_value, offset, "unexpected {} after the values of {}; remove it",
+                           in_quotes(scanner_.word()), row_name());
         }
         scanner_.next_line();
     }
 
     LineScanner scanner_;
     bool is_text_, swapped_;
-    Mistakes* mistakes_;
+    Mistakes& mistakes_;
     const PlyElement* element_ = nullptr;
     const Remedy* remedy_ = nullptr;  ///< for rows that cannot be read
     std::vector<char> wanted_;
@@ -284,29 +275,19 @@ class BodyReader {
     BodyReader(const PlyHeader& header, Mistakes& mistakes, const ReadPace& pace)
         : header_(header), rows_(header, mistakes), mistakes_(mistakes), pace_(pace) {}
 
-    /// Faces above the vertices are skipped, and read after them.
     Model read() {
-        std::vector<std::pair<const PlyElement*, Rows>> waiting;
-        bool has_vertices = false;
         for (const PlyElement& element : header_.elements) {
             check_count(element);
             if (element.properties.empty()) continue;
-            const bool is_shape = element.name == "face" || element.name == "tristrips";
             if (element.name == "vertex") {
-                has_vertices = true;
                 read_vertices(element);
-            } else if (is_shape && has_vertices) {
+            } else if (element.name == "face" || element.name == "tristrips") {
                 read_shapes(element);
             } else {
-                if (is_shape) waiting.emplace_back(&element, rows_);
                 read_rows(element, {}, [] {});
             }
         }
         rows_.note_rest();
-        for (const auto& [element, rows] : waiting) {
-            rows_ = rows;
-            read_shapes(*element);
-        }
         return finish();
     }
 
@@ -491,7 +472,7 @@ class BodyReader {
         }
         corners_.clear();
         for (const double index : indices) {
-            if (!take_corner(index, bad_ply_face, 1)) return;
+            if (!take_corner(index, bad_ply_face)) return;
         }
         const auto* blemish = append_face(corners_, {}, mesh_.positions, mistakes_.text().size(),
                                           mesh_.faces, nullptr);
@@ -499,45 +480,34 @@ class BodyReader {
     }
 
     /// Appends a vertex to corners_ if it exists and can be read; notes it otherwise.
-    bool take_corner(double index, const Remedy& remedy, std::size_t count) {
+    bool take_corner(double index, const Remedy& remedy) {
         const Vectors& all = mesh_.positions;
         if (!(index >= 0 && index < static_cast<double>(all.size())) ||
             index != std::floor(index)) {
-            rows_.note(
-                remedy,
-                fmt::format("vertex {} does not exist, there are {}, counted from 0; correct "
-                            "the number",
-                            index, all.size()),
-                count);
+            rows_.note(remedy, fmt::format("vertex {} does not exist, there are {}, counted from "
+                                           "0; correct the number",
+                                           index, all.size()));
             return false;
         }
         corners_.push_back(static_cast<std::uint32_t>(index));
         if (all_readable_ || !std::isnan(all[corners_.back()].x)) return true;
-        count > 0 ? rows_.note(bad_ply_vertex, {})
-                  : rows_.note(remedy, "a vertex of the strip cannot be read", 0);
+        rows_.note(bad_ply_vertex, {});
         return false;
     }
 
-    /// Triangles of three consecutive vertices, with alternating winding. -1 starts a new strip.
-    /// Triangles with a repeated vertex are skipped; a bad vertex takes three triangles with it.
+    /// Triangles of three consecutive vertices, with alternating winding. -1 starts a new strip,
+    /// as does a bad vertex. Triangles with a repeated vertex are skipped.
     void add_strip(std::span<const double> indices) {
-        std::size_t seen = 0, good = 0;  // in this strip; good ones in a row
+        corners_.clear();
         for (const double index : indices) {
-            if (index == -1) {
-                seen = good = 0;
-                continue;
+            if (index == -1 || !take_corner(index, bad_strip_vertex)) {
+                corners_.clear();
+            } else if (const std::size_t seen = corners_.size(); seen >= 3) {
+                const std::uint32_t a = corners_[seen - 3], b = corners_[seen - 2];
+                const std::uint32_t c = corners_[seen - 1];
+                if (a == b || b == c || c == a) continue;
+                mesh_.faces.push_back(seen % 2 == 0 ? std::array{b, a, c} : std::array{a, b, c});
             }
-            if (good == 0) corners_.clear();
-            good = take_corner(index, bad_strip_vertex, 0) ? good + 1 : 0;
-            if (++seen < 3) continue;
-            if (good < 3) {
-                rows_.note(bad_strip_vertex, {});
-                continue;
-            }
-            const auto last = std::span(corners_).last(3);
-            const auto [a, b, c] = std::array{last[0], last[1], last[2]};
-            if (a == b || b == c || c == a) continue;
-            mesh_.faces.push_back(seen % 2 == 0 ? std::array{b, a, c} : std::array{a, b, c});
         }
     }
 
