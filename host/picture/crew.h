@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
+#include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/devices.h"
@@ -41,35 +49,227 @@ class Crew : public Renderer<T> {
    public:
     using Warn = std::function<void(const std::string& line)>;
 
-    Crew(std::vector<CrewMember<T>> members, Warn warn);
-    ~Crew() override;  ///< does not wait for members still being created
+    Crew(std::vector<CrewMember<T>> members, Warn warn)
+        : shared_(std::make_shared<Shared>()),
+          warn_(std::move(warn)),
+          is_single_(members.size() == 1) {
+        for (CrewMember<T>& member : members) {
+            shared_->slots.emplace_back().member = std::move(member);
+        }
+    }
+
+    /// Does not wait for members still being created.
+    ~Crew() override {
+        std::unique_lock lock(shared_->mutex);
+        shared_->is_closed = true;
+        shared_->changed.notify_all();
+        for (Slot& slot : shared_->slots) {
+            if (!slot.thread.joinable()) continue;
+            if (slot.is_opening()) {
+                slot.thread.detach();
+                continue;
+            }
+            lock.unlock();
+            slot.thread.join();
+            lock.lock();
+        }
+    }
 
     /// Creates a single member; starts creating several. Throws like render.
-    void open();
+    void open() {
+        std::unique_lock lock(shared_->mutex);
+        for (Slot& slot : shared_->slots) start(slot, lock);
+        note_failed();
+    }
 
     /// Tiles that suit every member.
-    TileSizes tile_sizes(int film_width) const override;
+    TileSizes tile_sizes(int film_width) const override {
+        TileSizes sizes = shared_->slots.front().member.tiles;
+        for (const Slot& slot : shared_->slots) {
+            const auto& [best, most_pixels] = slot.member.tiles;
+            if (best.pixels() < sizes.best.pixels()) sizes.best = best;
+            sizes.most_pixels = std::min(sizes.most_pixels, most_pixels);
+        }
+        sizes.best.width = std::min(sizes.best.width, film_width);
+        return sizes;
+    }
 
     /// Throws Error when the last member fails.
-    void render(TileQueue& queue, const Rect& region, Film<T>& film) override;
+    void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
+        Shared& shared = *shared_;
+        const Stopwatch watch;
+        std::unique_lock lock(shared.mutex);
+        shared.job = [&](Renderer<T>& renderer) { renderer.render(queue, region, film); };
+        shared.queue = &queue;
+        shared.changed.notify_all();
+        for (;;) {
+            note_failed();
+            if (shared.working == 0 && !queue.has_tiles()) break;
+            Slot& last = shared.slots.back();
+            if (!last.thread.joinable() && shared.has_work(last)) {
+                take_part(shared, last, lock);
+            } else {
+                // Nobody notifies it of a stop while no member is working.
+                shared.changed.wait_for(lock, std::chrono::milliseconds(50));
+            }
+        }
+        shared.queue = nullptr;
+        trace_seconds_ += watch.seconds();
+    }
 
-    RendererTimes times() const override;
+    RendererTimes times() const override {
+        const std::scoped_lock lock(shared_->mutex);
+        const Slot& last = shared_->slots.back();
+        RendererTimes times;
+        if (is_single_ && last.renderer) times = last.times();
+        times.check = last.check;
+        if (!is_single_) times.trace = trace_seconds_;
+        return times;
+    }
 
     /// The first member.
-    DeviceStats stats() const;
+    DeviceStats stats() const { return shared_->slots.front().member.stats; }
 
     /// What each has done so far, in the given order.
-    std::vector<DeviceShare> shares() const;
+    std::vector<DeviceShare> shares() const {
+        const std::scoped_lock lock(shared_->mutex);
+        std::vector<DeviceShare> shares;
+        for (const Slot& slot : shared_->slots) {
+            DeviceShare& share = shares.emplace_back();
+            share.name = slot.member.name;
+            share.ready = slot.ready;
+            if (slot.renderer) share.pixels = slot.times().pixels;
+            if (slot.failure) share.failure = message_of(slot.failure);
+        }
+        return shares;
+    }
 
    private:
-    struct Slot;    ///< a member and its state
-    struct Shared;  ///< what the members' threads share
+    /// A member and its state.
+    struct Slot {
+        CrewMember<T> member;
+        std::unique_ptr<Renderer<T>> renderer;
+        RendererTimes before;        ///< up to the end of its test
+        double check = 0;            ///< seconds of the test
+        double ready = 0;            ///< seconds until it could begin
+        std::exception_ptr failure;  ///< why it does not render
+        bool has_warned = false;
+        std::thread thread;
 
-    static void make(Shared& shared, Slot& slot);
-    static void take_part(Shared& shared, Slot& slot, std::unique_lock<std::mutex>& lock);
-    static void serve(const std::shared_ptr<Shared>& shared, Slot& slot);
-    void start(Slot& slot, std::unique_lock<std::mutex>& lock);
-    void note_failed();
+        bool is_able() const { return renderer != nullptr && failure == nullptr; }
+        bool is_opening() const { return renderer == nullptr && failure == nullptr; }
+
+        /// Without those of its test.
+        RendererTimes times() const {
+            RendererTimes times = renderer->times();
+            times.trace -= before.trace;
+            times.kernel -= before.kernel;
+            times.resolve -= before.resolve;
+            times.read_back -= before.read_back;
+            times.pixels -= before.pixels;
+            return times;
+        }
+    };
+
+    /// What the members' threads share. `mutex` guards all of it.
+    struct Shared {
+        std::mutex mutex;
+        std::condition_variable changed;
+        std::deque<Slot> slots;
+        std::exception_ptr last_failure;
+        const TileQueue* queue = nullptr;  ///< while rendering
+        std::function<void(Renderer<T>&)> job;
+        int working = 0;  ///< members at work
+        bool is_closed = false;
+        const Stopwatch watch;
+
+        bool has_work(const Slot& slot) const {
+            return slot.is_able() && queue != nullptr && queue->has_tiles();
+        }
+        void fail(Slot& slot, const std::exception_ptr& failure) {
+            slot.failure = last_failure = failure;
+            changed.notify_all();
+        }
+    };
+
+    static std::string message_of(std::exception_ptr failure) {
+        try {
+            std::rethrow_exception(std::move(failure));
+        } catch (const std::exception& error) {
+            return error.what();
+        }
+    }
+
+    /// Creates and tests a member's renderer; the mutex is not held.
+    static void make(Shared& shared, Slot& slot) try {
+        auto renderer = slot.member.make();
+        const Stopwatch watch;
+        if (slot.member.test) slot.member.test(*renderer);
+        const double check = watch.seconds();
+        const RendererTimes before = renderer->times();
+        const std::scoped_lock lock(shared.mutex);
+        slot.check = check;
+        slot.before = before;
+        slot.ready = shared.watch.seconds();
+        slot.renderer = std::move(renderer);
+        shared.changed.notify_all();
+    } catch (...) {
+        const std::scoped_lock lock(shared.mutex);
+        shared.fail(slot, std::current_exception());
+    }
+
+    /// Has a member render until no tile is left.
+    static void take_part(Shared& shared, Slot& slot, std::unique_lock<std::mutex>& lock) {
+        ++shared.working;
+        lock.unlock();
+        std::exception_ptr failure;
+        try {
+            shared.job(*slot.renderer);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        lock.lock();
+        --shared.working;
+        shared.changed.notify_all();
+        if (failure != nullptr) shared.fail(slot, failure);
+    }
+
+    /// A member's thread, which may outlive the crew if the member is still being created.
+    static void serve(const std::shared_ptr<Shared>& shared, Slot& slot) {
+        make(*shared, slot);
+        std::unique_lock lock(shared->mutex);
+        while (slot.failure == nullptr) {
+            shared->changed.wait(lock, [&] { return shared->is_closed || shared->has_work(slot); });
+            if (shared->is_closed) return;
+            take_part(*shared, slot, lock);
+        }
+    }
+
+    /// Starts a member's thread, or creates a single one.
+    void start(Slot& slot, std::unique_lock<std::mutex>& lock) {
+        if (!slot.member.failure.empty()) {
+            const Error failure(ExitCode::device, slot.member.failure);
+            shared_->fail(slot, std::make_exception_ptr(failure));
+        } else if (is_single_) {
+            lock.unlock();
+            make(*shared_, slot);
+            lock.lock();
+        } else {
+            slot.thread = std::thread([shared = shared_, &slot] { serve(shared, slot); });
+        }
+    }
+
+    /// Warns of members that failed; when none is left, rethrows the last failure. Requires the
+    /// mutex.
+    void note_failed() {
+        const bool is_any_left = std::ranges::count(shared_->slots, nullptr, &Slot::failure) > 0;
+        for (Slot& slot : shared_->slots) {
+            if (slot.failure == nullptr || std::exchange(slot.has_warned, true)) continue;
+            if (!is_any_left && slot.failure == shared_->last_failure) continue;
+            warn_(message_of(slot.failure) + "; continuing without it");
+        }
+        if (!is_any_left) std::rethrow_exception(shared_->last_failure);
+    }
 
     std::shared_ptr<Shared> shared_;  ///< also held by the members' threads
     Warn warn_;
