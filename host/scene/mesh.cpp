@@ -31,21 +31,6 @@ void append_triangle(const Face& which, std::span<const std::uint32_t> corners,
 
 constexpr std::size_t grain = 1 << 15;  // faces that a thread takes at a time
 
-/// Transforms the positions and returns whether those of all faces are in range.
-bool move_positions(Scene::Mesh& mesh, const Affine& transform) {
-    for (glm::dvec3& p : mesh.positions) p = transform.linear * p + transform.translation;
-    if (std::ranges::all_of(mesh.positions, is_within)) return true;
-    for (const Face& face : mesh.faces) {
-        for (const std::uint32_t i : face) {
-            if (!is_within(mesh.positions[i])) return false;
-        }
-    }
-    for (glm::dvec3& p : mesh.positions) {
-        if (!is_within(p)) p = glm::dvec3(0);
-    }
-    return true;
-}
-
 /// Transforms the normals to unit length and returns whether any is zero, which stays zero.
 bool turn_normals(std::vector<glm::dvec3>& normals, const glm::dmat3& matrix) {
     bool any_zero = false;
@@ -141,10 +126,13 @@ const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
 
 void finish_mesh(Scene::Mesh& mesh, const Affine& transform, const std::string& path,
                  std::vector<std::string>& notes) {
-    if (transform != Affine{} && !move_positions(mesh, transform)) {
-        throw Error(ExitCode::input, path +
-                                         ": a vertex exceeds 1e30 after the transform; "
-                                         "make the transform smaller");
+    if (transform != Affine{}) {
+        for (glm::dvec3& p : mesh.positions) p = transform.linear * p + transform.translation;
+        if (!std::ranges::all_of(mesh.positions, is_within)) {
+            throw Error(ExitCode::input, path +
+                                             ": a vertex exceeds 1e30 after the transform; "
+                                             "make the transform smaller");
+        }
     }
     const auto matrix = normal_matrix(transform.linear);
     const bool any_zero = turn_normals(mesh.normals, matrix.value_or(glm::dmat3(1)));

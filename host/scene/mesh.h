@@ -40,7 +40,7 @@ const PolygonBlemish* append_face(std::span<const std::uint32_t> corners,
 /// Transforms a mesh into the scene. Normals become unit length; triangles without area are
 /// removed and faces with a normal of length 0 made flat, with a note; a mirroring transform
 /// reverses the faces, so that fronts stay fronts. The transform must not be singular. Throws Error
-/// (ExitCode::input) if a face's vertex ends up beyond max_scene_number, or if no face is left.
+/// (ExitCode::input) if a vertex ends up beyond max_scene_number, or if no face is left.
 void finish_mesh(Scene::Mesh& mesh, const Affine& transform, const std::string& path,
                  std::vector<std::string>& notes);
 
