@@ -66,28 +66,12 @@ struct Foreign {
     std::string_view start, message;
 };
 
-constexpr std::string_view utf16 = "is UTF-16 text; save it as UTF-8";
-
-/// Letter case is ignored.
+/// What programs give the name of a scene or model.
 constexpr Foreign foreign_starts[] = {
     {"version https://git-lfs", "is a Git LFS pointer, not the file itself; run 'git lfs pull'"},
     {"<", "is a web page or XML; download the file itself, or export another format"},
-    {"\x1f\x8b", "is compressed; unpack it with gunzip"},
-    {"BZh", "is compressed; unpack it with bunzip2"},
-    {"\xfd\x37zXZ", "is compressed; unpack it with unxz"},
-    {"\x28\xb5\x2f\xfd", "is compressed; unpack it with unzstd"},
-    {"PK\x03\x04", "is a ZIP archive; unpack it with unzip"},
-    {"\xff\xfe", utf16},
-    {"\xfe\xff", utf16},
-    {"solid ", "is an STL model; export it as OBJ or PLY"},
-    {"glTF", "is a glTF model; export it as OBJ or PLY"},
-    {"Kaydara FBX", "is an FBX model; export it as OBJ or PLY"},
-    {"BLENDER", "is a Blender file; export it as OBJ or PLY"},
-    {"#VRML", "is a VRML model; export it as OBJ or PLY"},
-    {"bplist", "is a binary property list; export the model as OBJ or PLY"},
-    {"%PDF", "is a PDF document; use a scene or a model"},
-    {"\x89PNG", "is a picture; use a scene or a model"},
-    {"\xff\xd8\xff", "is a picture; use a scene or a model"}};
+    {"\xff\xfe", "is UTF-16 text; save it as UTF-8"},
+    {"\xfe\xff", "is UTF-16 text; save it as UTF-8"}};
 
 std::mutex asked_mutex;
 std::optional<FileStates> asked_files;  // none before they are first taken
@@ -172,15 +156,10 @@ FileText read_text_file(const std::string& path, std::size_t max_bytes) {
 }
 
 void refuse_foreign(const std::string& path, std::string_view text) {
-    const std::size_t blanks = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-    const std::string start = lower(std::string(text.substr(blanks, 32)));
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     for (const Foreign& foreign : foreign_starts) {
-        if (start.starts_with(lower(std::string(foreign.start))))
-            refuse(path, std::string(foreign.message));
+        if (text.starts_with(foreign.start)) refuse(path, std::string(foreign.message));
     }
-    const bool wide =
-        text.size() > 3 && text[0] != 0 && text[1] == 0 && text[2] != 0 && text[3] == 0;
-    if (wide) refuse(path, std::string(utf16));
 }
 
 void keep_stdin() {

@@ -54,8 +54,8 @@ FileText read_text_file(const FileDescriptor& file, const std::string& path, std
 /// Opens and reads a file.
 FileText read_text_file(const std::string& path, std::size_t max_bytes);
 
-/// Throws Error (ExitCode::input) for a text that begins as another kind of file does: a web page,
-/// a Git LFS pointer, an archive, UTF-16, another model format. Says what it is and what to do.
+/// Throws Error (ExitCode::input) for a text that begins as a web page, a Git LFS pointer or UTF-16
+/// does. Says what it is and what to do.
 void refuse_foreign(const std::string& path, std::string_view text);
 
 /// Reads standard input to its end and replaces it with a copy that this process and its children

@@ -25,7 +25,7 @@ class Unreadable(CliTest):
                             ("file/scene.json", ""), ("x" * 5000 + ".json", ""), ("loop.json", ""),
                             (self.write_text("empty.json", ""), ""), ("noise.json", "noise.json:1:1"),
                             (self.write_text("ball.off", "ball\n"), "unknown extension '.off'"),
-                            (self.write_text("ball.stl", "solid ball\n"), "is an STL model")]:
+                            (self.write_text("ball.stl", "solid ball\n"), "unknown extension '.stl'")]:
             self.assert_scene_refused(path, words)
 
     def test_a_format_is_known_by_its_contents(self):
