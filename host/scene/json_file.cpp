@@ -212,19 +212,12 @@ std::vector<Key> turntable(const Scene::Camera& camera, int frames) {
 
 void read_path(ObjectReader& reader, Scene& scene) {
     Scene::CameraPath& path = scene.path;
-    reader.optional("interpolation", path.is_smooth, one_of("interpolation", interpolations));
     int frames = 0;
-    const bool is_turntable = reader.optional("turntable", frames, integer_from(2, 100000));
-    if (is_turntable) {
-        if (reader.find("keys")) {
-            reader.refuse("turntable", "a path has either 'turntable' or 'keys'; remove one");
-        }
-        if (reader.find("interpolation")) {
-            reader.refuse("interpolation", "a turntable has no keys to interpolate; remove it");
-        }
+    if (reader.optional("turntable", frames, integer_from(2, 100000))) {
         path.keys = turntable(scene.camera, frames);
         return;
     }
+    reader.optional("interpolation", path.is_smooth, one_of("interpolation", interpolations));
     const JsonValue* keys = reader.require("keys", "[{\"frame\": 1, \"from\": [0, 0, 5]}]");
     Mistakes& mistakes = reader.field.mistakes;
     const auto* items = keys ? read_array({*keys, "keys", mistakes}) : nullptr;
