@@ -344,7 +344,7 @@ TEST(SceneWarnings, ColorsOfBytesAndMirrorsThatBrighten) {
         return warnings_for(ball_at("[0, 0, 0]", material) + lit);
     };
     EXPECT_TRUE(warns(of(R"({"ambient": [255, 128, 0], "diffuse": 200})"),
-                      "ambient of material 'm' and 1 more: " + bytes));
+                      "ambient of material 'm': " + bytes));
     EXPECT_TRUE(warns(warnings_for(ball_at("[0, 0, 0]", R"({"ambient": 1})") + lit +
                                    R"(, "background": [135, 206, 235])"),
                       bytes));

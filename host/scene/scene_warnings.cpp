@@ -66,29 +66,17 @@ bool is_of_bytes(const glm::dvec3& color) {
 
 using NamedColor = Named<glm::dvec3 Scene::Material::*>;
 
-/// "diffuse of material 'red'", for each color that satisfies `is`.
+/// "diffuse of material 'red'", the first color that satisfies `is`; "" if none does.
 template <typename Is>
-std::vector<std::string> materials_where(const Scene& scene, std::span<const NamedColor> colors,
-                                         Is is) {
-    std::vector<std::string> found;
+std::string first_where(const Scene& scene, std::span<const NamedColor> colors, Is is) {
     for (const Scene::Material& material : scene.materials) {
         for (const auto& [key, color] : colors) {
-            if (!is(material.*color)) continue;
-            found.push_back(fmt::format("{} of material {}", key, in_quotes(material.name)));
+            if (is(material.*color)) {
+                return fmt::format("{} of material {}", key, in_quotes(material.name));
+            }
         }
     }
-    return found;
-}
-
-/// "first" or "first and 3 more".
-std::string first_of(const std::vector<std::string>& found) {
-    return found.size() == 1 ? found[0] : fmt::format("{} and {} more", found[0], found.size() - 1);
-}
-
-std::vector<std::string> colors_of_bytes(const Scene& scene) {
-    std::vector<std::string> found = materials_where(scene, material_colors, is_of_bytes);
-    if (is_of_bytes(scene.background)) found.emplace_back("background");
-    return found;
+    return "";
 }
 
 }  // namespace
@@ -124,17 +112,18 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
         warnings.emplace_back(
             "nothing is in view; check the camera's from, at, and angle or window");
     }
-    if (const auto found = colors_of_bytes(scene); !found.empty()) {
-        warnings.push_back(
-            fmt::format("{}: looks like 0 to 255, but colors range from 0 to 1; divide by 255",
-                        first_of(found)));
+    const std::span<const NamedColor> all(material_colors);
+    std::string found = first_where(scene, all, is_of_bytes);
+    if (found.empty() && is_of_bytes(scene.background)) found = "background";
+    if (!found.empty()) {
+        warnings.push_back(found +
+                           ": looks like 0 to 255, but colors range from 0 to 1; divide by 255");
         return warnings;
     }
-    const std::span<const NamedColor> passed_on(material_colors + 3, 2);
     const auto brightens = [](const glm::dvec3& color) { return brightest(color) > 1; };
-    if (const auto found = materials_where(scene, passed_on, brightens); !found.empty()) {
-        warnings.push_back(fmt::format(
-            "{}: exceeds 1, so light grows at each bounce; use at most 1", first_of(found)));
+    found = first_where(scene, all.subspan(3), brightens);  // mirror and transmission
+    if (!found.empty()) {
+        warnings.push_back(found + ": exceeds 1, so light grows at each bounce; use at most 1");
     }
     return warnings;
 }
