@@ -59,12 +59,7 @@ void open_missing_streams() {
 }
 
 void print_message(const std::string& text) {
-    std::string_view left = text;
-    if (left.starts_with('\r')) {
-        std::fputc('\r', stderr);
-        left.remove_prefix(1);
-    }
-    write_lines(left);
+    write_lines(text);
     std::fflush(stderr);
 }
 
@@ -76,7 +71,8 @@ void print_notes(const std::vector<std::string>& notes) {
 
 void print_bar(const std::string& text, bool last) {
     bar_shown = !last;
-    print_message("\r" + text + (last ? "\n" : ""));
+    std::fputc('\r', stderr);
+    print_message(text + (last ? "\n" : ""));
 }
 
 bool bar_is_shown() { return bar_shown; }

@@ -10,8 +10,8 @@ namespace rt {
 /// number, and what is written there is an error. Call it first.
 void open_missing_streams();
 
-/// Prints text to stderr. Line ends, tabs and a leading carriage return are kept; other unprintable
-/// characters are escaped (printable). Never throws: a lost message must not lose a picture.
+/// Prints text to stderr. Line ends and tabs are kept; other unprintable characters are escaped
+/// (printable). Never throws: a lost message must not lose a picture.
 void print_message(const std::string& text);
 
 /// Prints "mirrorball: note" as a line.
