@@ -2,7 +2,6 @@
 #include "host/base/files.h"
 
 #include <dlfcn.h>
-#include <signal.h>
 #include <stdlib.h>
 
 #include <system_error>
@@ -42,23 +41,6 @@ TemporaryFolder::~TemporaryFolder() {
 
 namespace {
 
-/// Blocks all signals of this thread for its lifetime. The libraries start idle threads of their
-/// own while they are loaded; these inherit the mask and never run the program's handlers.
-class SignalsBlocked {
-   public:
-    SignalsBlocked() {
-        sigset_t all;
-        ::sigfillset(&all);
-        ::pthread_sigmask(SIG_SETMASK, &all, &before_);
-    }
-    SignalsBlocked(const SignalsBlocked&) = delete;
-    SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-    ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
-   private:
-    sigset_t before_;
-};
-
 const void* load_file(const fs::path& file, const ModuleFile& wanted, ExitCode failure) {
     // Never closed: destructors of the libraries run when the program ends.
     void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -79,7 +61,6 @@ const void* load_file(const fs::path& file, const ModuleFile& wanted, ExitCode f
 }  // namespace
 
 const void* load_module(const ModuleFile& module, ExitCode failure) {
-    const SignalsBlocked blocked;
     const fs::path folder = beside_program({".", MIRRORBALL_MODULE_DIR}, module.name);
     if (!folder.empty()) return load_file(folder / module.name, module, failure);
     const fs::path last = program_file().parent_path() / MIRRORBALL_MODULE_DIR / module.name;
