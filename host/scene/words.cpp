@@ -62,10 +62,7 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 
 std::string guess_text(const std::string& word, const std::vector<std::string>& known) {
     const std::vector<std::string_view> names(known.begin(), known.end());
-    std::string_view guess = nearest_word(word, names);
-    for (const std::string_view name : names) {
-        if (word.size() > 3 && name.starts_with(word)) guess = name;
-    }
+    const std::string_view guess = nearest_word(word, names);
     return guess.empty() ? "" : fmt::format("; did you mean '{}'?", guess);
 }
 
