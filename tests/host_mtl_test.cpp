@@ -36,9 +36,6 @@ TEST(ParseMtl, AnAmbientOfOneIsAnExportersDefaultUnlessTheColorIsWhite) {
     EXPECT_EQ(mtl("Ka 1 1 1\nKd 1 1 1\n").ambient, glm::dvec3(1));
     EXPECT_EQ(mtl("Ka 1 1 1\n").ambient, glm::dvec3(1));
     EXPECT_EQ(mtl("Ka 0.9 1 1\nKd 0.5\n").ambient, glm::dvec3(0.9, 1, 1));
-    EXPECT_EQ(parse_mtl("newmtl a\nKa 1\nKd .5\nnewmtl b\nKa 1\nKd .4\n", "t.mtl").notes,
-              std::vector<std::string>{"t.mtl:2:4: Ka is 1 whatever the color is, as exporters "
-                                       "write it; Kd takes its place (2 materials affected)"});
 }
 
 TEST(ParseMtl, WhatCannotBeReadLeavesTheDefault) {
@@ -90,14 +87,6 @@ TEST(ParseMtl, AnIndexOfZeroIsFineWhereNothingIsGlass) {
     EXPECT_EQ(mtl("Ni 0\nillum 2\n").ior, 1);
     EXPECT_EQ(mtl("Ni 0\nd 0.5\n").ior, 1);
     EXPECT_EQ(mtl("illum 4\nNi 0\nd 1\n").ior, 1);
-}
-
-TEST(ParseMtl, AnIndexBelowZeroIsNotedOnce) {
-    const auto library = parse_mtl("newmtl m\nillum 6\nd 0.5\nNi  -2\n", "t.mtl");
-    EXPECT_EQ(library.materials.at(0).ior, 1);
-    EXPECT_EQ(library.notes,
-              std::vector<std::string>{"t.mtl:4:5: Ni is -2; write an index of refraction above 0, "
-                                       "like 1.5 (1 value ignored)"});
 }
 
 /// This took the square of the number of lines.

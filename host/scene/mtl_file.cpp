@@ -22,7 +22,6 @@ constexpr Remedy mtl_ignored{"statement ignored", "statements ignored"};
 constexpr Remedy unsupported = mtl_ignored;
 constexpr Remedy value_ignored{"value ignored", "values ignored"};
 constexpr Remedy value_limited{"value limited", "values limited"};
-constexpr Remedy kd_is_ambient{"material affected", "materials affected"};
 constexpr Remedy unknown{"material is gray", "materials are gray"};
 constexpr Remedy missing{"library missing", "libraries missing"};
 
@@ -34,12 +33,12 @@ struct Mtl {
     double shininess = 1, ior = 1;
     std::optional<double> dissolve, transparency;
     int illum = 2;
-    std::size_t ambient_offset = 0, ior_offset = 0;  ///< of what follows Ka and Ni
 };
 
 /// Illumination models 3 to 8 trace reflections; 4, 6, 7 and 9 are glass; below 2 there are no
-/// highlights. Nor are there with exponents near 0, which exporters write for "none".
-Scene::Material to_material(const Mtl& mtl, Mistakes& mistakes) {
+/// highlights. Nor are there with exponents near 0, which exporters write for "none". They also
+/// write a Ka of 1 whatever the color is, so Kd takes its place.
+Scene::Material to_material(const Mtl& mtl) {
     constexpr double least_shininess = 0.5;
     const int illum = mtl.illum;
     const double opacity = mtl.dissolve.value_or(1.0 - mtl.transparency.value_or(0.0));
@@ -48,11 +47,7 @@ Scene::Material to_material(const Mtl& mtl, Mistakes& mistakes) {
     material.name = mtl.name;
     material.ambient = mtl.ambient.value_or(glm::dvec3(0));
     material.diffuse = mtl.diffuse.value_or(glm::dvec3(0));
-    if (material.ambient == glm::dvec3(1) && mtl.diffuse && *mtl.diffuse != glm::dvec3(1)) {
-        mistakes.note(kd_is_ambient, mtl.ambient_offset,
-                      "Ka is 1 whatever the color is, as exporters write it; Kd takes its place");
-        material.ambient = material.diffuse;
-    }
+    if (material.ambient == glm::dvec3(1) && mtl.diffuse) material.ambient = material.diffuse;
     if (illum >= 2 && mtl.shininess >= least_shininess) material.specular = mtl.specular;
     if (illum >= 3 && illum <= 8) material.mirror = mtl.specular;
     material.shininess = mtl.shininess;
@@ -62,10 +57,6 @@ Scene::Material to_material(const Mtl& mtl, Mistakes& mistakes) {
     material.diffuse *= opacity;
     material.transmission = (1.0 - opacity) * mtl.filter;
     material.ior = mtl.ior > 0 ? mtl.ior : 1;
-    if (mtl.ior <= 0) {
-        mistakes.note(value_ignored, mtl.ior_offset,
-                      "Ni is {}; write an index of refraction above 0, like 1.5", mtl.ior);
-    }
     return material;
 }
 
@@ -99,20 +90,14 @@ class MtlReader {
     }
 
     bool read_value(std::string_view word, Mtl& mtl) {
-        if (word == "Ka") {
-            mtl.ambient_offset = scanner_.word_offset();
-            read_color(word, mtl.ambient);
-        } else if (word == "Kd") {
-            read_color(word, mtl.diffuse);
+        if (word == "Ka" || word == "Kd") {
+            read_color(word, word == "Ka" ? mtl.ambient : mtl.diffuse);
         } else if (word == "Ks" || word == "Tf") {
             std::optional<glm::dvec3> color;
             read_color(word, color);
             if (color) (word == "Ks" ? mtl.specular : mtl.filter) = *color;
-        } else if (word == "Ns") {
-            read_amount(word, max_scene_number, mtl.shininess);
-        } else if (word == "Ni") {
-            mtl.ior_offset = scanner_.word_offset();
-            mtl.ior = scan_number(scanner_, word, mistakes_, &value_ignored).value_or(mtl.ior);
+        } else if (word == "Ns" || word == "Ni") {
+            read_amount(word, max_scene_number, word == "Ns" ? mtl.shininess : mtl.ior);
         } else if (word == "illum") {
             read_illum(mtl);
         } else if (word == "d" || word == "Tr") {
@@ -142,7 +127,7 @@ class MtlReader {
 
     /// Keeps the material above, unless it has no name of its own.
     void finish_material() {
-        if (mtl_ && !mtl_->name.empty()) materials_.push_back(to_material(*mtl_, mistakes_));
+        if (mtl_ && !mtl_->name.empty()) materials_.push_back(to_material(*mtl_));
     }
 
     /// Three numbers, or one for gray.
