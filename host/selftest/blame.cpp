@@ -38,9 +38,7 @@ class Reproducer {
     /// `numbers`: of the results; see reproduce.c.
     Reproducer(std::string folder, const std::string& kernel, const std::string& options,
                const char* numbers, std::size_t items, std::size_t group)
-        : folder_(std::move(folder)),
-          kernel_(kernel),
-          global_((items + group - 1) / group * group) {
+        : folder_(std::move(folder)), global_((items + group - 1) / group * group) {
         create_output_folder(folder_);
         launch_ = fmt::format("kernel {}\noptions {}\nnumbers {}\nglobal {}\nlocal {}\n", kernel,
                               options, numbers, global_, group);
@@ -60,11 +58,10 @@ class Reproducer {
         launch_ += fmt::format("scratch {}\n", global_ * bytes_per_item);
     }
 
-    void finish(const std::string& source, std::string_view readme) const {
-        const std::string reduced = reduced_to_kernel(source, kernel_);
+    void finish(std::string_view source, std::string_view readme) const {
         for (const auto& [file, text] :
              {std::pair<const char*, std::string_view>{"launch.txt", launch_},
-              {"kernel.cl", reduced},
+              {"kernel.cl", source},
               {"reproduce.c", reproduce_program},
               {"README", readme}}) {
             write_file_atomically(folder_ + "/" + file, std::as_bytes(std::span(text)));
@@ -72,7 +69,7 @@ class Reproducer {
     }
 
    private:
-    const std::string folder_, kernel_;
+    const std::string folder_;
     const std::size_t global_;
     std::string launch_;
     int count_ = 0;

@@ -120,10 +120,6 @@ std::string difference(const ProbeRecord& right, const ProbeRecord& got);
 std::string what_is_wrong(ProbeDevice& device, const ProbeRecord& record, int lanes,
                           const std::string& more_options = "");
 
-/// OpenCL C without comments and without the functions that the kernel does not reach. What macros
-/// mention counts as called: they paste names together.
-std::string reduced_to_kernel(const std::string& source, const std::string& kernel);
-
 /// The name of a record's precision.
 inline const char* precision_name(const ProbeRecord& record) {
     return record.is_double ? "double" : "float";
