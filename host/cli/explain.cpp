@@ -63,11 +63,9 @@ std::string explanation(const ExplainOptions& options, const Scene& scene,
                           {"color", {pixel.color.x, pixel.color.y, pixel.color.z}},
                           {"samples", json_of(trees)}});
     }
-    const std::string summary = summary_of(trees);
-    return fmt::format("{}: pixel {},{} of {}x{}, {}: {:.5f} {:.5f} {:.5f}\n{}{}",
+    return fmt::format("{}: pixel {},{} of {}x{}, {}: {:.5f} {:.5f} {:.5f}\n",
                        printable(options.scene), options.x, options.y, scene.width, scene.height,
-                       to_string(scene.aa), pixel.color.x, pixel.color.y, pixel.color.z, summary,
-                       summary.empty() ? "" : "\n") +
+                       to_string(scene.aa), pixel.color.x, pixel.color.y, pixel.color.z) +
            ray_trees_text(trees, options.verbose);
 }
 

@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <utility>
 
 #include "host/base/error.h"
 #include "host/flatten/view_frame.h"
@@ -200,24 +197,6 @@ std::size_t add_ray(const RayNode& ray, bool all, std::string& text) {
     return left_out;
 }
 
-std::string surface_of(const RayNode& ray) {
-    return ray.hit ? printable(ray.hit->material) : "background";
-}
-
-/// What each ray shows, and how much that adds to the color. `via`: how the eye's ray got there.
-void add_shares(const RayNode& ray, const std::string& via,
-                std::vector<std::pair<std::string, double>>& shares) {
-    const std::string name = surface_of(ray) + via;
-    auto share = std::ranges::find(shares, name, [](const auto& one) { return one.first; });
-    if (share == shares.end()) share = shares.insert(share, {name, 0});
-    const glm::dvec3 color = ray.weight * ray.color;
-    share->second += color.x + color.y + color.z;
-    for (const RayNode& child : ray.children) {
-        const char* const how = child.kind == RayNode::Kind::mirror ? " mirrored in " : " through ";
-        add_shares(child, via.empty() ? how + surface_of(ray) : via, shares);
-    }
-}
-
 }  // namespace
 
 std::string object_of(const Scene& scene, const TriangleList& triangles, std::size_t number) {
@@ -263,22 +242,6 @@ glm::dvec3 color_of(const RayNode& ray, const glm::dvec3& before) {
     glm::dvec3 color = before + ray.weight * ray.color;
     for (const RayNode& child : ray.children) color = color_of(child, color);
     return color;
-}
-
-std::string summary_of(const std::vector<SampleTree>& trees) {
-    std::vector<std::pair<std::string, double>> shares;
-    for (const SampleTree& tree : trees) add_shares(tree.ray, "", shares);
-    double total = 0;
-    for (const auto& [name, share] : shares) total += share;
-    if (!std::isfinite(total) || total <= 0) return "";
-    std::ranges::stable_sort(shares, std::greater(), [](const auto& one) { return one.second; });
-    std::string text;
-    for (const auto& [name, share] : shares) {
-        const double percent = 100 * share / total;
-        if (percent < 0.5) continue;
-        text += fmt::format("{}{:.0f} % {}", text.empty() ? "" : ", ", percent, name);
-    }
-    return text;
 }
 
 std::string ray_trees_text(const std::vector<SampleTree>& trees, bool all) {

@@ -96,10 +96,6 @@ std::vector<SampleTree> ray_trees(const ExplainedPixel& pixel, const Scene& scen
 /// `before` plus the tree's color, summed in the renderer's order: the same bits.
 glm::dvec3 color_of(const RayNode& ray, const glm::dvec3& before = glm::dvec3(0));
 
-/// What the pixel shows, by what it adds to the color: "84 % background through glass, 8 % floor
-/// mirrored in glass". Empty if it adds nothing, or is not finite.
-std::string summary_of(const std::vector<SampleTree>& trees);
-
 /// The trees as indented lines: a ray, what it hit, what each light adds, and the secondary rays;
 /// if not `all`, then without those that weigh too little to be seen.
 std::string ray_trees_text(const std::vector<SampleTree>& trees, bool all);
