@@ -422,7 +422,8 @@ void print_warnings(const std::string& scene, const std::vector<std::string>& wa
 
 std::unique_ptr<LivePicture> make_live_picture(const RenderOptions& options) {
     const std::string name = options.output.empty() ? options.scene : options.output;
-    auto viewers = make_viewers(options.view, name, options.encoding, message_printer(options));
+    auto viewers =
+        make_viewers(options.view, name, options.encoding, message_printer(options), stop_flag());
     return viewers.empty() ? nullptr : std::make_unique<LivePicture>(std::move(viewers));
 }
 

@@ -35,9 +35,9 @@ std::unique_ptr<Viewer> make_window(const std::string& name, Encoding encoding, 
 
 std::vector<std::unique_ptr<Viewer>> make_viewers(const ViewSettings& settings,
                                                   const std::string& name, Encoding encoding,
-                                                  const Say& say) {
+                                                  const Say& say, const StopFlag& stop) {
     std::vector<std::unique_ptr<Viewer>> viewers;
-    if (settings.tev) viewers.push_back(make_tev_viewer(*settings.tev, name, say));
+    if (settings.tev) viewers.push_back(make_tev_viewer(*settings.tev, name, say, stop));
     if (settings.window) viewers.push_back(make_window(name, encoding, say));
     if (settings.preview) viewers.push_back(make_preview(settings.terminal, encoding, say));
     std::erase(viewers, nullptr);
@@ -102,7 +102,7 @@ void LivePicture::tell(bool begins, const std::vector<Rect>& parts) {
     for (const auto& viewer : viewers_) {
         if (begins) viewer->begin(shown_.width, shown_.height);
         if (!parts.empty()) viewer->update(shown_, parts);
-        viewer->tick(shown_);
+        viewer->tick();
     }
 }
 
@@ -141,7 +141,7 @@ void LivePicture::show_last(Picture picture) {
     for (const auto& viewer : viewers_) {
         if (!has_begun) viewer->begin(shown_.width, shown_.height);
         viewer->finish(shown_);
-        viewer->tick(shown_);
+        viewer->tick();
     }
 }
 

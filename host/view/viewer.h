@@ -17,6 +17,7 @@
 #include "host/image/encoding.h"
 #include "host/image/picture.h"
 #include "host/render/rect.h"
+#include "host/render/tile_queue.h"
 
 namespace rt {
 
@@ -34,8 +35,8 @@ class Viewer {
     /// The final picture.
     virtual void finish(const Picture& picture) = 0;
 
-    /// Called ten times a second from `begin` on, with the picture so far.
-    virtual void tick(const Picture&) {}
+    /// Called ten times a second from `begin` on.
+    virtual void tick() {}
 
     /// After `finish`: whether it still wants ticks, as a window does until it is closed.
     virtual bool is_open() const { return false; }
@@ -72,15 +73,15 @@ TerminalSize terminal_size();
 /// A viewer that draws in stderr's terminal, or null: `say` receives why.
 std::unique_ptr<Viewer> make_preview(const TerminalNames& names, Encoding encoding, const Say& say);
 
-/// A viewer that sends the picture to tev.
+/// A viewer that sends the picture to tev, unless `stop` is set.
 std::unique_ptr<Viewer> make_tev_viewer(const TevAddress& address, const std::string& name,
-                                        const Say& say);
+                                        const Say& say, const StopFlag& stop);
 
 /// Creates the viewers of a picture called `name`. `say` receives why one cannot be created, and
 /// later errors, these on another thread.
 std::vector<std::unique_ptr<Viewer>> make_viewers(const ViewSettings& settings,
                                                   const std::string& name, Encoding encoding,
-                                                  const Say& say);
+                                                  const Say& say, const StopFlag& stop);
 
 /// Why this program has no windows; empty if it has.
 std::string why_no_windows();

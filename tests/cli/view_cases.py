@@ -106,12 +106,6 @@ class TevServer:
         while len(self.data) < before + 500000 and self.thread.is_alive():
             time.sleep(0.05)
 
-    def has_whole_packets(self):
-        at = 0
-        while at < len(self.data):
-            at += struct.unpack_from("<I", self.data, at)[0]
-        return at == len(self.data)
-
     @staticmethod
     def texts(data, count):
         parts = data.split(b"\0", count)
@@ -184,11 +178,7 @@ class Tev(CliTest):
                 self.assertNotIn("stopping", rest)
                 self.assertEqual(process.returncode, 0 if len(outputs) == 1 else 130, rest)
                 server.thread.join(HANG_LIMIT)
-                self.assertFalse(server.has_whole_packets(), "there was nothing left to send")
-
-    def test_one_that_reads_slowly_is_left_alone_in_the_end(self):
-        result = self.render_to(TevServer(slowly=True), "--size", "2000")
-        self.assertIn("tev is too slow", result.stderr)
+                self.assertLess(len(server.data), 12 * 2000 * 2000, "there was nothing left to send")
 
     def test_an_address_needs_no_port(self):
         for option in ["--tev=localhost:1", "--tev=localhost", "--tev"]:

@@ -71,7 +71,7 @@ class SdlWindow : public rt::Viewer {
     }
 
     /// Handles window events; redraws what was covered.
-    void tick(const Picture&) override {
+    void tick() override {
         bool any = false;
         SDL_Event event;
         while (is_open() && SDL_PollEvent(&event) != 0) {
