@@ -47,14 +47,22 @@ constexpr double longest_test = 10;
 
 enum class State { fine, missing, broken };
 
-constexpr Named<State> state_words[] = {
-    {"ok", State::fine}, {"missing", State::missing}, {"BROKEN", State::broken}};
+constexpr Named<State> states[] = {
+    {"ok", State::fine}, {"missing", State::missing}, {"broken", State::broken}};
+constexpr auto& enum_names(State) { return states; }
 
 struct Finding {
     State state = State::fine;
     std::string what;     ///< "device 0"
     std::string verdict;  ///< what is wrong, and what to do
 };
+
+template <typename A, Of<Finding> X>
+void describe(A& a, X& x) {
+    a("state", x.state, "");
+    a("what", x.what, "");
+    a("verdict", x.verdict, "");
+}
 
 /// Throws what rendering throws.
 std::uint64_t hash_of_known_picture(const DeviceChoice& device, Precision precision) {
@@ -75,13 +83,9 @@ std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
     const std::uint64_t hash = hash_of_known_picture(device, precision);
     const bool is_double = precision == Precision::float64;
     if (hash == (is_double ? double_hash : float_hash)) return "";
-    const bool is_of_threads =
-        device.use_threads || hash == hash_of_known_picture(threads_choice(), precision);
-    return fmt::format("{} in {} (image {}){}",
-                       is_of_threads ? "its kernels render another picture than the release's"
-                                     : "renders a wrong picture",
-                       to_string(precision), hash_text(hash),
-                       is_of_threads ? "" : "; clear its kernel cache or update its driver");
+    return fmt::format(
+        "renders a wrong picture in {} (image {}); clear its kernel cache or update its driver",
+        to_string(precision), hash_text(hash));
 }
 
 /// Tests a device in this process, a worker.
@@ -213,26 +217,18 @@ std::vector<Finding> examine(const DoctorOptions& options) {
 void print_findings(const std::vector<Finding>& findings, bool is_well) {
     std::string text = fmt::format("mirrorball {} ({})\n", version, git_revision);
     for (const Finding& finding : findings) {
-        text += fmt::format("{:<8} {}: {}\n", name_of(state_words, finding.state), finding.what,
+        text += fmt::format("{:<8} {}: {}\n", name_of(states, finding.state), finding.what,
                             finding.verdict);
     }
     print_result(text + (is_well ? "everything installed works\n" : "something is broken\n"));
 }
 
 void print_findings_json(const std::vector<Finding>& findings, bool is_well) {
-    Json list = Json::array();
-    for (const Finding& finding : findings) {
-        list.push_back(
-            {{"state",
-              finding.state == State::broken ? "broken" : name_of(state_words, finding.state)},
-             {"what", finding.what},
-             {"verdict", finding.verdict}});
-    }
     print_result(json_text({{"format", "mirrorball-doctor"},
                             {"version", 1},
                             {"program", fmt::format("{} ({})", version, git_revision)},
                             {"well", is_well},
-                            {"findings", list}}));
+                            {"findings", json_of(findings)}}));
 }
 
 int run_doctor(const DoctorOptions& options) {

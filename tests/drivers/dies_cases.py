@@ -163,7 +163,7 @@ class Dies(WrongDriver):
     def test_doctor_names_it(self):
         result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "segfault"},
                                "doctor", code=5)
-        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its test process was killed by SIGSEGV")
+        self.assertRegex(result.stdout, r"broken +device 0, .*: its test process was killed by SIGSEGV")
         self.assertRegex(result.stdout, r"ok +threads: ")
 
     def drivers(self, *names):
@@ -180,7 +180,7 @@ class Dies(WrongDriver):
         words = (r"a process that loads .*a\.icd and .*b\.icd was killed by SIGABRT while listing its "
                  "devices; choose one of them with OCL_ICD_VENDORS")
         self.assertRegex(self.run_with(shim, "devices", code=0).stdout, words)
-        self.assertRegex(self.run_with(shim, "doctor", code=5).stdout, "BROKEN +OpenCL: " + words)
+        self.assertRegex(self.run_with(shim, "doctor", code=5).stdout, "broken +OpenCL: " + words)
 
     def test_one_of_three_is_left_out(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
@@ -214,7 +214,7 @@ class Dies(WrongDriver):
                       json.loads(result.stdout)["problems"][0])
         shim["CL_SHIM_DIE_IN"] = "clBuildProgram"
         result = self.run_with(shim, "doctor", "--deadline", "0.5", code=5)
-        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its test process did not end in time")
+        self.assertRegex(result.stdout, r"broken +device 0, .*: its test process did not end in time")
 
     def check_hanging_ends(self, *command):
         result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "hang"}, *command,

@@ -31,7 +31,7 @@ class Wrong(WrongDriver):
 
     def test_by_the_doctor(self):
         result = self.run_with(brighter("1.000001"), "doctor", code=5)
-        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: renders a wrong picture")
+        self.assertRegex(result.stdout, r"broken +device 0, .*: renders a wrong picture")
 
     def test_by_its_self_test(self):
         result = self.render(brighter("1.000001"), 0)
