@@ -24,16 +24,14 @@ namespace rt {
 
 namespace {
 
-/// Whether a word names a place for results: not an existing scene or picture.
-bool may_take_results(const std::string& word) {
-    if (word == "-") return true;
-    if (word.starts_with("-")) return false;
-    std::ifstream file(word, std::ios::binary);
-    std::string start(32, ' ');
+/// Whether results that begin so may take a file's place: there is none, or such a file.
+bool may_hold(const std::string& path, const std::string& first_bytes) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return true;
+    std::ifstream file(path, std::ios::binary);
+    std::string start(first_bytes.size(), ' ');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    return file.gcount() == 0 || word.ends_with(".csv") ||
-           start.find("\"format\": \"mirrorball") != std::string::npos ||
-           start.starts_with("<?xml");
+    return file.gcount() == 0 || start == first_bytes;
 }
 
 glm::dvec3 parse_ambient(const std::string& text) {
@@ -175,12 +173,7 @@ void add_repeats(Verb& verb, int& repeats, int least) {
 void check_result_path(const std::string& path, const std::string& first_bytes) {
     if (path.empty() || path == "-") return;
     check_output_path(path);
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return;
-    std::ifstream file(path, std::ios::binary);
-    std::string start(first_bytes.size(), ' ');
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    if (file.gcount() == 0 || start == first_bytes) return;
+    if (may_hold(path, first_bytes)) return;
     throw Error(ExitCode::usage,
                 path + ": already exists and is not such a result file; choose another name");
 }
@@ -189,11 +182,13 @@ void ResultFiles::add(Verb& verb, const std::string& option, const std::string& 
                       const std::string& help) {
     File& file = files_[option];
     file.first_bytes = first_bytes;
-    verb.optional_value(option, "FILE|-", help, "-", may_take_results,
-                        [&file](const std::string& text) {
-                            if (text.empty()) refuse(text, "expected a file name, or - for stdout");
-                            file.path = text;
-                        });
+    const auto accepts = [first_bytes](const std::string& word) {
+        return word == "-" || (!word.starts_with('-') && may_hold(word, first_bytes));
+    };
+    verb.optional_value(option, "FILE|-", help, "-", accepts, [&file](const std::string& text) {
+        if (text.empty()) refuse(text, "expected a file name, or - for stdout");
+        file.path = text;
+    });
 }
 
 void ResultFiles::check(const std::vector<std::string>& inputs,

@@ -158,8 +158,8 @@ void check_result_path(const std::string& path, const std::string& first_bytes);
 class ResultFiles {
    public:
     /// Adds --json, --csv or --junit: alone, the results go to stdout ("-"). The next word is the
-    /// file unless that exists and is not a result file: a scene or a picture. The verb refers to
-    /// this object.
+    /// file unless that exists and is not such a result file: a scene or a picture. The verb refers
+    /// to this object.
     void add(Verb& verb, const std::string& option, const std::string& first_bytes,
              const std::string& help);
 
