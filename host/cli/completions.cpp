@@ -35,20 +35,13 @@ const Option* option_with_value(Verb& verb, const std::string& name) {
     return option != nullptr && !option->type.empty() ? option : nullptr;
 }
 
-/// Whether the word is the option's value; a value in brackets may be left out. Not of null.
-bool may_take(const Option* option, const std::string& word) {
-    return option != nullptr && !(option->type.starts_with('[') && word.starts_with('-'));
-}
-
 }  // namespace
 
 std::string completions_of(Verb& program, std::vector<std::string> words) {
     const std::string last = words.empty() ? "" : words.back();
     if (!words.empty()) words.pop_back();
     Verb* verb = &program;
-    const Option* option = nullptr;  // whose value comes next
     for (const std::string& word : words) {
-        option = may_take(option, word) ? nullptr : option_with_value(*verb, word);
         const auto inner = std::ranges::find(verb->verbs, word, &Verb::name);
         if (inner != verb->verbs.end()) verb = &*inner;
     }
@@ -56,9 +49,10 @@ std::string completions_of(Verb& program, std::vector<std::string> words) {
     const auto offer = [&](const std::string& word, const std::string& help) {
         if (word.starts_with(last)) text += word + "\t" + help + "\n";
     };
-    const std::string before = last.substr(0, last.find('=') + 1);
-    if (!before.empty()) option = option_with_value(*verb, last.substr(0, last.find('=')));
-    if (may_take(option, last.substr(before.size()))) {
+    const std::string before = last.substr(0, last.find('=') + 1);  // "--math="
+    if (!before.empty()) words.push_back(last.substr(0, before.size() - 1));
+    const Option* const option = words.empty() ? nullptr : option_with_value(*verb, words.back());
+    if (option != nullptr && (!before.empty() || !last.starts_with('-'))) {
         for (const std::string& value : values_of(option->type)) offer(before + value, "");
     } else if (!last.empty() || !verb->verbs.empty()) {
         for (const Verb& one : verb->verbs) offer(one.name(), one.about);
