@@ -2,6 +2,7 @@
 #include "host/cli/render_pictures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -369,13 +370,8 @@ class Pictures {
             return exit_code_of_stop(stop_flag());
         }
         if (failed_.empty()) return 0;
-        std::string text = fmt::format("{} of {} failed, with exit codes:", failed_.size(),
-                                       counted(pictures_, "picture"));
-        constexpr std::size_t most_named = 20;
-        for (std::size_t i = 0; i < std::min(failed_.size(), most_named); ++i) {
-            text += (i == 0 ? " " : ", ") + failed_[i];
-        }
-        print_note(text + (failed_.size() > most_named ? ", ..." : ""));
+        print_note(fmt::format("{} of {} failed, with exit codes: {}", failed_.size(),
+                               counted(pictures_, "picture"), fmt::join(failed_, ", ")));
         return worst_;
     }
 
