@@ -20,17 +20,12 @@ namespace rt {
 
 namespace {
 
-/// "HOST:PORT", "HOST", ":PORT" or "[IPv6]:PORT"; missing parts default to tev's.
+/// "HOST:PORT", or "HOST" at tev's port.
 TevAddress parse_tev_address(const std::string& text) {
     TevAddress address;
-    const std::size_t bracket = text.find(']');
-    const std::size_t colon = text.find(':', bracket == std::string::npos ? 0 : bracket);
-    std::string host = text.substr(0, colon);
-    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-    if (!host.empty()) address.host = host;
-    if (colon != std::string::npos && colon + 1 < text.size()) {
-        address.port = text.substr(colon + 1);
-    }
+    const std::size_t colon = text.rfind(':');
+    address.host = text.substr(0, colon);
+    if (colon != std::string::npos) address.port = text.substr(colon + 1);
     return address;
 }
 
