@@ -214,7 +214,8 @@ class Dies(WrongDriver):
                       json.loads(result.stdout)["problems"][0])
         shim["CL_SHIM_DIE_IN"] = "clBuildProgram"
         result = self.run_with(shim, "doctor", "--deadline", "0.5", code=5)
-        self.assertRegex(result.stdout, r"broken +device 0, .*: its test process did not end in time")
+        # Where others keep the processors busy, computing may look like hanging.
+        self.assertRegex(result.stdout, r"broken +device 0, .*: its test process (did not end in time|made no progress)")
 
     def check_hanging_ends(self, *command):
         result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "hang"}, *command,
