@@ -34,12 +34,10 @@ void add_soup(Scene& scene, Random& random, int count, double place, double size
     }
 }
 
-void add_mesh(Scene& scene, const StressMesh& shape, const glm::dvec3& center, double size) {
+void add_mesh(Scene& scene, const Scene::Mesh& shape, const glm::dvec3& center, double size) {
     Scene::Mesh mesh;
-    for (const glm::dvec3& p : shape.vertices) mesh.positions.push_back(center + size * p);
-    for (const auto& [a, b, c] : shape.faces) {
-        mesh.faces.push_back({std::uint32_t(a), std::uint32_t(b), std::uint32_t(c)});
-    }
+    for (const glm::dvec3& p : shape.positions) mesh.positions.push_back(center + size * p);
+    mesh.faces = shape.faces;
     mesh.face_materials = {0};
     scene.meshes.push_back(mesh);
 }
@@ -54,8 +52,8 @@ void add_flake(Scene& scene, const glm::dvec3& center, double radius, int levels
     }
 }
 
-StressMesh bumpy(Random& random, StressMesh mesh) {
-    for (glm::dvec3& vertex : mesh.vertices) vertex *= random.uniform(0.8, 1.2);
+Scene::Mesh bumpy(Random& random, Scene::Mesh mesh) {
+    for (glm::dvec3& vertex : mesh.positions) vertex *= random.uniform(0.8, 1.2);
     return mesh;
 }
 

@@ -216,14 +216,9 @@ TEST(StressJson, SaysTheSame) {
 TEST(StressRun, CasesThatShouldHaveTheSameBitsAndDoNotFail) {
     StressFamily family{"two", "background", "", {}};
     for (const double blue : {0.5, 0.5, 0.5 + 1e-6}) {
-        PictureTrial trial;
-        trial.scene = [=] {
-            Scene scene = small_still_life();
-            scene.background.z = blue;
-            return scene;
-        };
-        trial.same_bits = "the first";
-        family.cases.push_back({std::to_string(family.cases.size()), 0, {}, trial, false});
+        Scene scene = small_still_life();
+        scene.background.z = blue;
+        family.cases.push_back(labeled(label_of(blue), blue, same_bits(scene)));
     }
     StressOptions options;
     options.devices = {"threads"};
@@ -233,7 +228,7 @@ TEST(StressRun, CasesThatShouldHaveTheSameBitsAndDoNotFail) {
     ASSERT_EQ(result.families.at(0).cases.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
         for (const StressRow& row : result.families[0].cases[i].rows) {
-            EXPECT_EQ(row.why, i < 2 ? "" : "bits differ from the first");
+            EXPECT_EQ(row.why, i < 2 ? "" : "bits differ from the first case");
         }
     }
 }
@@ -286,7 +281,7 @@ TEST(RayTrials, ABallThatMostRaysMissIsCounted) {
 
 TEST(RayTrials, AHoleInAMeshIsCounted) {
     Scene scene = bare_scene();
-    StressMesh mesh = ball_mesh(1);
+    Scene::Mesh mesh = ball_mesh(1);
     mesh.faces.pop_back();
     add_mesh(scene, mesh, add_matt(scene, glm::dvec3(1)));
     set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
@@ -316,7 +311,7 @@ constexpr int lane_widths[] = {1, 2, 4, 8, 16};
 #endif
 
 TEST(LeavingEdges, StaysOnItsSide) {
-    for (const StressMesh& mesh : {box_mesh(), wedge_mesh(3), wedge_mesh(150), ball_mesh(1)}) {
+    for (const Scene::Mesh& mesh : {box_mesh(), wedge_mesh(3), wedge_mesh(150), ball_mesh(1)}) {
         Scene scene = bare_scene();
         add_mesh(scene, mesh, add_matt(scene, glm::dvec3(1)));
         set_view(scene, {0.5, 0.0625, 0.125}, {1, 0, 0}, 60);
@@ -333,8 +328,8 @@ TEST(LeavingEdges, StaysOnItsSide) {
 }
 
 TEST(StressMeshes, AreClosed) {
-    for (const StressMesh& mesh : {ball_mesh(2), bumpy_mesh(1), fan_mesh(50),
-                                   needle_mesh(6, 3, 1e-6), wedge_mesh(10), box_mesh()}) {
+    for (const Scene::Mesh& mesh : {ball_mesh(2), bumpy_mesh(1), fan_mesh(50),
+                                    needle_mesh(6, 3, 1e-6), wedge_mesh(10), box_mesh()}) {
         std::set<std::pair<int, int>> edges;
         for (const auto& face : mesh.faces) {
             for (std::size_t i = 0; i < 3; ++i) {

@@ -19,7 +19,7 @@ constexpr std::size_t most_rays = 1 << 20;
 
 struct ClosedShape {
     const char* name;
-    StressMesh mesh;
+    Scene::Mesh mesh;
     glm::dvec3 eye;
 };
 

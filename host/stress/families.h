@@ -16,19 +16,25 @@
 // The families of cases, and what their files share.
 namespace rt {
 
-using MakeScene = std::function<Scene()>;
-
 // Cases, which get their names from a family.
 
 /// A picture of the scene, compared with its reference.
-inline StressCase picture_case(MakeScene scene, StressTolerance tolerance = {},
+inline StressCase picture_case(Scene scene, StressTolerance tolerance = {},
                                ReferenceKind reference = ReferenceKind::quad) {
-    return {"", 0, tolerance, PictureTrial{std::move(scene), {}, reference, ""}};
+    const auto keep = [scene = std::move(scene)] { return scene; };
+    return {"", 0, tolerance, PictureTrial{keep, {}, reference}};
 }
 
 /// The same with another scene's reference, since that scene looks the same.
-inline StressCase seen_as(MakeScene reference_scene, StressCase one) {
+inline StressCase seen_as(Scene reference_scene, StressCase one) {
     std::get<PictureTrial>(one.trial).reference_scene = std::move(reference_scene);
+    return one;
+}
+
+/// A picture that must agree in every bit with the family's first such one.
+inline StressCase same_bits(const Scene& scene) {
+    StressCase one = picture_case(scene);
+    std::get<PictureTrial>(one.trial).same_bits = true;
     return one;
 }
 
@@ -56,7 +62,7 @@ StressFamily sweep(StressFamily family, const std::vector<Value>& values,
     for (const Value& value : values) {
         StressCase one;
         if constexpr (std::is_same_v<std::invoke_result_t<Make, Value>, Scene>) {
-            one = picture_case([=] { return make(value); });
+            one = picture_case(make(value));
         } else {
             one = make(value);
         }
@@ -75,20 +81,18 @@ StressFamily sweep(StressFamily family, std::initializer_list<Value> values,
     return sweep(std::move(family), std::vector(values), quick, make);
 }
 
-enum class InQuick { no, yes };
+/// The case as part of --quick.
+inline StressCase quick(StressCase one) {
+    one.quick = true;
+    return one;
+}
 
-struct LabeledCase {
-    std::string label;
-    InQuick quick;
-    StressCase one;
-};
+using LabeledCase = std::pair<std::string, StressCase>;
 
-/// Adds the cases, numbered from `first`.
-inline StressFamily listed(StressFamily family, const std::vector<LabeledCase>& cases,
-                           int first = 0) {
-    for (const LabeledCase& next : cases) {
-        family.cases.push_back(labeled(next.label, first++, next.one));
-        family.cases.back().quick = next.quick == InQuick::yes;
+/// Adds the cases, numbered from 0.
+inline StressFamily listed(StressFamily family, const std::vector<LabeledCase>& cases) {
+    for (const auto& [label, one] : cases) {
+        family.cases.push_back(labeled(label, family.cases.size(), one));
     }
     return family;
 }

@@ -34,14 +34,14 @@ Scene leaning_mirror() {
     Scene scene = bare_scene();
     const int mirror = add_mirror(scene, 0.75);
     add_floor(scene, {0, -2, 0}, 12, add_matt(scene, {0.875, 0.25, 0.125}));
-    const StressMesh fan = fan_mesh(32);
+    const Scene::Mesh fan = fan_mesh(32);
     for (const auto& [a, b, c] : fan.faces) {
         if (a != 0) continue;  // only the upper half, flattened
-        const auto flat = [&](int i) {
-            const glm::dvec3 p = fan.vertices[static_cast<std::size_t>(i)];
+        const auto flat = [&](auto i) {
+            const glm::dvec3 p = fan.positions[i];
             return glm::dvec3(3 * p.x, 0, 3 * p.z);
         };
-        const auto lean = [&](int i) {
+        const auto lean = [&](auto i) {
             const glm::dvec3 p = flat(i);
             return glm::normalize(glm::dvec3(p.x, 1.25, p.z));
         };
@@ -79,23 +79,17 @@ Scene gray_scene(int width, int height, int grid) {
 }
 
 /// The correct picture of such a scene is the inside of one big ball.
-StressCase leak_case(const MakeScene& scene) {
-    const auto filled = [=] {
-        const Scene of = scene();
-        Scene ball = gray_scene(of.width, of.height, 1);
-        add_sphere(ball, ball.camera.from, 100, 0);
-        return ball;
-    };
-    return seen_as(filled, picture_case(scene, {.most_wrong_at_edges = 0}));
+StressCase leak_case(const Scene& scene) {
+    Scene ball = gray_scene(scene.width, scene.height, 1);
+    add_sphere(ball, ball.camera.from, 100, 0);
+    return seen_as(ball, picture_case(scene, {.most_wrong_at_edges = 0}));
 }
 
-StressCase inside_mesh(const StressMesh& mesh, glm::dvec3 eye, glm::dvec3 at) {
-    return leak_case([=] {
-        Scene scene = gray_scene(160, 120, 2);
-        add_mesh(scene, mesh, 0);
-        set_view(scene, eye, at, 100);
-        return scene;
-    });
+StressCase inside_mesh(const Scene::Mesh& mesh, glm::dvec3 eye, glm::dvec3 at) {
+    Scene scene = gray_scene(160, 120, 2);
+    add_mesh(scene, mesh, 0);
+    set_view(scene, eye, at, 100);
+    return leak_case(scene);
 }
 
 /// A bumpy sheet over a lattice whose vertices and diagonals lie exactly on pixel rays.
@@ -156,7 +150,7 @@ Scene box_wall(int axis, bool rounded) {
 }
 
 /// The mesh alone, the eye in its middle or far from it.
-Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
+Scene mesh_scene(const Scene::Mesh& mesh, glm::dvec3 eye) {
     Scene scene = bare_scene();
     add_mesh(scene, mesh, add_matt(scene, glm::dvec3(0.5)));
     set_view(scene, eye, eye + glm::dvec3(0, 0, -1), 60);
@@ -164,54 +158,53 @@ Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
 }
 
 StressFamily leak_rays(const char* name, const char* why, RayAim aim) {
-    const auto at = [=](const StressMesh& mesh, glm::dvec3 eye) {
+    const auto at = [=](const Scene::Mesh& mesh, glm::dvec3 eye) {
         return ray_case(leaks(mesh_scene(mesh, eye), aim));
     };
-    const StressMesh far = placed(bumpy_mesh(1), 1, {148376, 1234, -223423});
-    return listed(
-        {name, "closed mesh", why},
-        {{"bumpy-ball", InQuick::yes, at(bumpy_mesh(2), glm::dvec3(0))},
-         {"fan", InQuick::yes, at(fan_mesh(250), {0.125, 0.125, 0})},
-         {"needles", InQuick::yes, at(needle_mesh(12, 4, 1e-6), {0.125, 0.125, 0})},
-         {"tiny-ball", InQuick::yes, at(placed(bumpy_mesh(1), 1e-6, {3, 2, 1}), {3, 2, 1})},
-         {"far-ball", InQuick::yes, at(far, glm::dvec3(0))}});
+    const Scene::Mesh far = placed(bumpy_mesh(1), 1, {148376, 1234, -223423});
+    return listed({name, "closed mesh", why},
+                  {{"bumpy-ball", quick(at(bumpy_mesh(2), glm::dvec3(0)))},
+                   {"fan", quick(at(fan_mesh(250), {0.125, 0.125, 0}))},
+                   {"needles", quick(at(needle_mesh(12, 4, 1e-6), {0.125, 0.125, 0}))},
+                   {"tiny-ball", quick(at(placed(bumpy_mesh(1), 1e-6, {3, 2, 1}), {3, 2, 1}))},
+                   {"far-ball", quick(at(far, glm::dvec3(0)))}});
 }
 
 /// An octahedron with a T-junction: a vertex on one side of an edge and none on the other. Such a
 /// mesh is closed on paper only, so its leaks are counted, not judged.
 StressFamily t_junctions() {
-    StressMesh mesh = fan_mesh(4);
-    const int middle = static_cast<int>(mesh.vertices.size());
+    Scene::Mesh mesh = fan_mesh(4);
+    auto& points = mesh.positions;
+    const auto middle = static_cast<std::uint32_t>(points.size());
     const auto [a, b, c] = mesh.faces[0];
-    const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
-    mesh.vertices.push_back(vertex(b) + 0.3 * (vertex(c) - vertex(b)));
+    points.push_back(points[b] + 0.3 * (points[c] - points[b]));
     mesh.faces[0] = {a, b, middle};
     mesh.faces.push_back({a, middle, c});
     const Scene scene = mesh_scene(mesh, {0.125, 0.125, 0});
     const StressTolerance any{.most_wrong = std::numeric_limits<std::size_t>::max()};
     return listed({"t-junctions", "aim", "never watertight; counted, not judged"},
-                  {{"edges", InQuick::yes, ray_case(leaks(scene, RayAim::edges), any)},
-                   {"vertices", InQuick::no, ray_case(leaks(scene, RayAim::vertices), any)}});
+                  {{"edges", quick(ray_case(leaks(scene, RayAim::edges), any))},
+                   {"vertices", ray_case(leaks(scene, RayAim::vertices), any)}});
 }
 
 /// Slanted, so that no coordinate is exact.
-StressMesh slanted(StressMesh mesh) {
+Scene::Mesh slanted(Scene::Mesh mesh) {
     const glm::dvec3 x = glm::normalize(glm::dvec3(5, 3, -2));
     const glm::dvec3 y = glm::normalize(glm::cross(x, glm::dvec3(1, -4, 2)));
     const glm::dvec3 z = glm::cross(x, y);
-    for (auto& p : mesh.vertices) p = p.x * x + p.y * y + p.z * z;
+    for (auto& p : mesh.positions) p = p.x * x + p.y * y + p.z * z;
     return mesh;
 }
 
 StressFamily leaving_edges() {
     std::vector<LabeledCase> cases;
-    const auto add = [&](const std::string& label, const StressMesh& mesh, glm::dvec3 eye) {
+    const auto add = [&](const std::string& label, const Scene::Mesh& mesh, glm::dvec3 eye) {
         const Scene scene = mesh_scene(mesh, eye);
         for (const MeshSide side : {MeshSide::inside, MeshSide::outside}) {
             RayTrial trial = edge_escapes(scene, side);
             trial.rays = 1'000'000;
             cases.push_back({label + (side == MeshSide::inside ? "-inside" : "-outside"),
-                             InQuick::yes, ray_case(trial)});
+                             quick(ray_case(trial))});
         }
     };
     add("box", box_mesh(), {0.5, -0.25, 0.99});
@@ -245,62 +238,57 @@ StressFamily leaving_spheres(const char* name, double distances, const char* why
 
 StressFamilies mesh_families() {
     const auto with = [](const char* normals) {
-        return picture_case([=] { return triangle_with_normals(normals); });
+        return picture_case(triangle_with_normals(normals));
     };
     const auto lattice = [](int cells, bool perspective, double height, unsigned seed) {
-        return leak_case([=] { return lattice_scene(cells, perspective, height, seed); });
+        return leak_case(lattice_scene(cells, perspective, height, seed));
     };
-    const auto along = [](int axis, bool rounded) {
-        return leak_case([=] { return box_wall(axis, rounded); });
-    };
+    const auto along = [](int axis, bool rounded) { return leak_case(box_wall(axis, rounded)); };
     const glm::dvec3 far(148376, 1234, -223423);
     return {
         listed(
             {"vertex-normals", "normals",
              "normals that cancel, oppose or lack length divide 0 by 0"},
-            {{"ordinary", InQuick::no, with("[[-0.3, 0, 1], [0.3, 0, 1], [0, 0.3, 1]]")},
-             {"sum-to-zero", InQuick::yes,
-              with("[[1, 0, 0], [-0.5, 0.8660254037844386, 0], [-0.5, -0.8660254037844386, 0]]")},
-             {"opposing", InQuick::yes, with("[[0, 0, 1], [0, 0, -1], [0, 0, 1]]")},
-             {"scaled-1e-3", InQuick::no,
-              with("[[-3e-4, 0, 1e-3], [3e-4, 0, 1e-3], [0, 3e-4, 1e-3]]")},
-             {"scaled-1e3", InQuick::no, with("[[-300, 0, 1e3], [300, 0, 1e3], [0, 300, 1e3]]")},
-             {"scaled-1e-30-and-1e30", InQuick::yes,
-              with("[[-3e-31, 0, 1e-30], [3e29, 0, 1e30], [0, 0.3, 1]]")},
-             {"in-the-plane", InQuick::no, with("[[1, 0, 0], [1, 0, 0], [1, 0, 0]]")},
-             {"behind", InQuick::no, with("[[0.1, 0, -1], [0, 0.1, -1], [0, 0, -1]]")}}),
+            {{"ordinary", with("[[-0.3, 0, 1], [0.3, 0, 1], [0, 0.3, 1]]")},
+             {"sum-to-zero",
+              quick(with(
+                  "[[1, 0, 0], [-0.5, 0.8660254037844386, 0], [-0.5, -0.8660254037844386, 0]]"))},
+             {"opposing", quick(with("[[0, 0, 1], [0, 0, -1], [0, 0, 1]]"))},
+             {"scaled-1e-3", with("[[-3e-4, 0, 1e-3], [3e-4, 0, 1e-3], [0, 3e-4, 1e-3]]")},
+             {"scaled-1e3", with("[[-300, 0, 1e3], [300, 0, 1e3], [0, 300, 1e3]]")},
+             {"scaled-1e-30-and-1e30",
+              quick(with("[[-3e-31, 0, 1e-30], [3e29, 0, 1e30], [0, 0.3, 1]]"))},
+             {"in-the-plane", with("[[1, 0, 0], [1, 0, 0], [1, 0, 0]]")},
+             {"behind", with("[[0.1, 0, -1], [0, 0.1, -1], [0, 0, -1]]")}}),
         listed({"smooth-mesh", "mesh",
                 "mirror rays about blended normals dive under the face they leave"},
-               {{"ball", InQuick::no, picture_case([] { return smooth_ball(0); })},
-                {"mirror-ball", InQuick::yes, picture_case([] { return smooth_ball(0.5); })},
-                {"leaning-mirror", InQuick::yes, picture_case(leaning_mirror)}},
-               1),
-        listed({"mesh-from-inside", "mesh", "rays slip between two triangles that share an edge"},
-               {{"bumpy-ball", InQuick::yes,
-                 inside_mesh(bumpy_mesh(2), {0.125, 0.0625, 0.25}, {0, 0, -1})},
-                {"fan", InQuick::no,
-                 inside_mesh(fan_mesh(250), {0.0625, 0.125, 0.0625}, {0, 1, 0.001})},
-                {"needles", InQuick::yes,
-                 inside_mesh(needle_mesh(12, 4, 1e-6), {0.0625, 0.125, 0.0625}, {0.25, 0.25, -1})},
-                {"tiny-ball", InQuick::no,
-                 inside_mesh(placed(bumpy_mesh(2), 1e-6, {3, 2, 1}), {3, 2, 1},
-                             {3 + 1e-6, 2 + 2e-7, 1})},
-                {"far-ball", InQuick::no,
-                 inside_mesh(placed(bumpy_mesh(2), 1, far), far, far + glm::dvec3(1, 0.25, 0))}}),
+               {{"ball", picture_case(smooth_ball(0))},
+                {"mirror-ball", quick(picture_case(smooth_ball(0.5)))},
+                {"leaning-mirror", quick(picture_case(leaning_mirror()))}}),
+        listed(
+            {"mesh-from-inside", "mesh", "rays slip between two triangles that share an edge"},
+            {{"bumpy-ball", quick(inside_mesh(bumpy_mesh(2), {0.125, 0.0625, 0.25}, {0, 0, -1}))},
+             {"fan", inside_mesh(fan_mesh(250), {0.0625, 0.125, 0.0625}, {0, 1, 0.001})},
+             {"needles", quick(inside_mesh(needle_mesh(12, 4, 1e-6), {0.0625, 0.125, 0.0625},
+                                           {0.25, 0.25, -1}))},
+             {"tiny-ball", inside_mesh(placed(bumpy_mesh(2), 1e-6, {3, 2, 1}), {3, 2, 1},
+                                       {3 + 1e-6, 2 + 2e-7, 1})},
+             {"far-ball",
+              inside_mesh(placed(bumpy_mesh(2), 1, far), far, far + glm::dvec3(1, 0.25, 0))}}),
         listed({"on-pixel-rays", "lattice",
                 "edge functions are 0 on vertices that lie on the rays themselves"},
-               {{"parallel-flat", InQuick::yes, lattice(16, false, 0, 1)},
-                {"parallel-bumpy", InQuick::no, lattice(16, false, 2, 2)},
-                {"perspective-flat", InQuick::no, lattice(16, true, 0, 3)},
-                {"perspective-bumpy", InQuick::yes, lattice(16, true, 2, 4)},
-                {"perspective-128x128", InQuick::no, lattice(64, true, 2, 5)}}),
+               {{"parallel-flat", quick(lattice(16, false, 0, 1))},
+                {"parallel-bumpy", lattice(16, false, 2, 2)},
+                {"perspective-flat", lattice(16, true, 0, 3)},
+                {"perspective-bumpy", quick(lattice(16, true, 2, 4))},
+                {"perspective-128x128", lattice(64, true, 2, 5)}}),
         // Pixel centers lie at multiples of a quarter of a square: every fourth exactly on a side.
         listed({"axis-parallel", "axis",
                 "0 times infinity in the test of a box whose side the ray runs in"},
-               {{"z", InQuick::yes, along(2, false)},
-                {"x", InQuick::no, along(0, false)},
-                {"y", InQuick::no, along(1, false)},
-                {"z-thirds", InQuick::no, along(2, true)}})};
+               {{"z", quick(along(2, false))},
+                {"x", along(0, false)},
+                {"y", along(1, false)},
+                {"z-thirds", along(2, true)}})};
 }
 
 StressFamilies ray_families() {

@@ -72,33 +72,24 @@ Scene random_glass_scene(unsigned seed) {
     return scene;
 }
 
-StressCase same_bits(MakeScene scene) {
-    StressCase one = picture_case(std::move(scene));
-    std::get<PictureTrial>(one.trial).same_bits = "the scene as it is";
-    return one;
-}
-
 // The scene scaled or moved. The first and last of these must not change a bit of its picture.
 
 /// By 2^k.
-StressCase scaled_by_two(const MakeScene& scene, int k) {
+StressCase scaled_by_two(const Scene& scene, int k) {
     const double factor = std::ldexp(1.0, k);
-    return labeled(fmt::format("2^{}", k), factor,
-                   same_bits([=] { return scaled(scene(), factor); }));
+    return labeled(fmt::format("2^{}", k), factor, same_bits(scaled(scene, factor)));
 }
 
 /// By 10^k.
-StressCase scaled_by_ten(const MakeScene& scene, int k) {
+StressCase scaled_by_ten(const Scene& scene, int k) {
     const double factor = std::pow(10.0, k);
-    return labeled(fmt::format("10^{}", k), factor,
-                   picture_case([=] { return scaled(scene(), factor); }));
+    return labeled(fmt::format("10^{}", k), factor, picture_case(scaled(scene, factor)));
 }
 
 /// By whole numbers: `by` and up to twice that.
-StressCase moved(const MakeScene& scene, std::string label, double by) {
-    return labeled(std::move(label), by, same_bits([=] {
-                       return shifted(scene(), {by, -by, by < 5e8 ? 2 * by : by});
-                   }));
+StressCase moved(const Scene& scene, std::string label, double by) {
+    return labeled(std::move(label), by,
+                   same_bits(shifted(scene, {by, -by, by < 5e8 ? 2 * by : by})));
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -127,7 +118,7 @@ StressFamily size_family(const char* name, const char* why, double middle,
     return sweep({name, "radius over distance", why},
                  {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, middle, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
                  {1e-4, middle, 1e4}, [=](double radius) {
-                     return picture_case([=] { return scene(radius); }, small_tolerance(radius));
+                     return picture_case(scene(radius), small_tolerance(radius));
                  });
 }
 
@@ -212,12 +203,8 @@ Scene tubes() {
 }
 
 /// A small picture of the scene as it is, scaled and moved.
-StressFamily scaled_and_moved(const char* name, const char* why, Scene (*scene)()) {
-    const auto small = [scene] {
-        Scene result = scene();
-        set_image_size(result, 80, 60);
-        return result;
-    };
+StressFamily scaled_and_moved(const char* name, const char* why, Scene small) {
+    set_image_size(small, 80, 60);
     StressFamily family =
         sweep({name, "scale, or distance from the origin", why}, {0, -40, -20, 20, 40}, {0, -40},
               [=](int k) { return scaled_by_two(small, k); });
@@ -253,10 +240,9 @@ StressFamilies ordinary_families() {
     std::iota(seeds.begin(), seeds.end(), 1);
     return {
         listed({"ordinary", "scene", "baseline: float error in an ordinary scene"},
-               {{"still-life", InQuick::yes, picture_case(still_life)},
-                {"still-life-2x2", InQuick::no, picture_case(fine_still_life)},
-                {"glass-still-life", InQuick::yes, picture_case(glass_still_life)}},
-               1),
+               {{"still-life", quick(picture_case(still_life()))},
+                {"still-life-2x2", picture_case(fine_still_life())},
+                {"glass-still-life", quick(picture_case(glass_still_life()))}}),
         sweep({"random-scenes", "seed", "random shapes: touching, crossing, tiny, huge"}, seeds,
               {1, 2, 3, 25, 26},
               [](int seed) { return seed <= 24 ? random_scene(seed) : random_glass_scene(seed); }),
@@ -264,25 +250,24 @@ StressFamilies ordinary_families() {
                "absolute epsilons swallow small scenes and leave holes in large ones"},
               {0, -40, -36, -32, -28, -24, -20, -16, -12, -8, -4,
                4, 8,   12,  16,  20,  24,  28,  32,  36,  40},
-              {0, -40, -20, 20, 40}, [](int k) { return scaled_by_two(still_life, k); }),
+              {0, -40, -20, 20, 40}, [](int k) { return scaled_by_two(still_life(), k); }),
         sweep({"scale-10", "scale", "squares of distances leave the range of float beyond 10^19"},
               {-30, -25, -20, -15, -10, -6, -4, -3, -2, -1, 1, 2, 3, 4, 6, 10, 15, 20, 25, 30},
-              {-30, -3, 3, 30}, [](int k) { return scaled_by_ten(still_life, k); }),
+              {-30, -3, 3, 30}, [](int k) { return scaled_by_ten(still_life(), k); }),
         sweep({"shift", "distance from the origin",
                "coordinates far from the origin leave no precision for the scene"},
               {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {0, 5, 9},
               [](int k) {
-                  if (k == 0) return labeled("0", 0, same_bits(still_life));
-                  return moved(still_life, fmt::format("1e{}", k), std::pow(10.0, k));
+                  if (k == 0) return labeled("0", 0, same_bits(still_life()));
+                  return moved(still_life(), fmt::format("1e{}", k), std::pow(10.0, k));
               }),
         // Coordinates are rounded to double after the shift; the reference sees the same doubles.
         sweep({"shift-odd", "distance from the origin", "offsets that float cannot represent"},
               {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {7},
               [](int k) {
                   const double by = 1.1 * std::pow(10.0, k);
-                  return labeled(fmt::format("1.1e{}", k), by, picture_case([=] {
-                                     return shifted(still_life(), {by, -by / 3, by / 7});
-                                 }));
+                  return labeled(fmt::format("1.1e{}", k), by,
+                                 picture_case(shifted(still_life(), {by, -by / 3, by / 7})));
               }),
         // A scene with one distant object, which must not set the scale.
         sweep({"outlier", "distance of one ball",
@@ -303,59 +288,57 @@ StressFamilies shape_families() {
     const StressFamily long_cones_away = sweep(
         {"long-cone", "length over radius", "the far end's magnitudes swamp the near end's"},
         {4e1, 4e2, 4e4, 4e6, 4e8}, {4e2, 4e6}, [](double ratio) { return long_cones(ratio / 4); });
-    return {
-        size_family("sphere-size", "b^2 - 4 a c cancels for small and for large balls", 0.75,
-                    sized_ball),
-        sweep(
-            {"ball-floor", "radius of the ground", "a ground ball somewhat larger than the scene"},
-            {4, 16, 64, 100}, {64}, ball_floor),
-        sweep(huge_floors, {1e6}, {1e6},
-              [](double radius) {
-                  return labeled("1e+06-among-far-balls", radius, picture_case([=] {
-                                     Scene scene = ball_floor(radius);
-                                     for (int i = 0; i < 8; ++i) {
-                                         const glm::dvec3 way{i % 3 - 1, 0.25, i % 2 == 0 ? -1 : 1};
-                                         add_sphere(scene, 0.125 * radius * way, 0.005 * radius, 1);
-                                     }
-                                     return scene;
-                                 }));
-              }),
-        // A light this high above the top of the ground, 1e8 in radius.
-        sweep({"ground-light", "height of the light",
-               "rounding at the ground decides whether it hides a light behind it"},
-              {-5.0, -0.5, -1e-3, 1e-3, 0.5, 5.0}, {-5.0, 0.5},
-              [](double height) {
-                  Scene scene = ball_floor(1e8);
-                  for (auto& material : scene.materials) material.two_sided = true;
-                  scene.lights = {{{0, height, 2}, glm::dvec3(0.75)}};
-                  return scene;
-              }),
-        size_family("cone-size", "the quadratic's terms cancel for small and for large cones", 0.5,
-                    sized_cone),
-        sweep(long_cones_away, {4e2, 4e6}, {4e6},
-              [](double ratio) {
-                  return labeled(fmt::format("{:g}-from-afar", ratio), ratio,
-                                 picture_case([=] { return long_cones(ratio / 4, true); }));
-              }),
-        sweep({"cone-needle", "length over radius",
-               "thin cones lose their outline and their normals"},
-              {2e1, 2e2, 2e3, 2e4, 2e6}, {2e1, 2e3},
-              [](double ratio) {
-                  const double radius = 2 / ratio;
-                  return picture_case([=] { return cone_needle(radius); }, small_tolerance(radius));
-              }),
-        sweep({"flat-cone", "height over radius", "all hits lie within rounding of both rims"},
-              {2e-1, 2e-2, 2e-3, 2e-4, 2e-6, 2e-8, 2e-12}, {2e-2, 2e-8},
-              [](double ratio) { return flat_cone(ratio / 2); }),
-        scaled_and_moved("cylinder-scale",
-                         "absolute epsilons fill small tubes and leave holes in large ones", tubes),
-        scaled_and_moved("glass-scale", "absolute epsilons skip the far side of small glass",
-                         glass_still_life),
-        leaving_cones("leaving-cone", 3,
-                      "an absolute epsilon causes acne on large cones and holes in small ones"),
-        leaving_cones("leaving-far-cone", 1000, "the same with the cone a thousand radii away"),
-        outline_family("cone-rays",
-                       [](double radius) { return past_cone(cone_to_aim_at(radius, 1)); })};
+    return {size_family("sphere-size", "b^2 - 4 a c cancels for small and for large balls", 0.75,
+                        sized_ball),
+            sweep({"ball-floor", "radius of the ground",
+                   "a ground ball somewhat larger than the scene"},
+                  {4, 16, 64, 100}, {64}, ball_floor),
+            sweep(huge_floors, {1e6}, {1e6},
+                  [](double radius) {
+                      Scene scene = ball_floor(radius);
+                      for (int i = 0; i < 8; ++i) {
+                          const glm::dvec3 way{i % 3 - 1, 0.25, i % 2 == 0 ? -1 : 1};
+                          add_sphere(scene, 0.125 * radius * way, 0.005 * radius, 1);
+                      }
+                      return labeled("1e+06-among-far-balls", radius, picture_case(scene));
+                  }),
+            // A light this high above the top of the ground, 1e8 in radius.
+            sweep({"ground-light", "height of the light",
+                   "rounding at the ground decides whether it hides a light behind it"},
+                  {-5.0, -0.5, -1e-3, 1e-3, 0.5, 5.0}, {-5.0, 0.5},
+                  [](double height) {
+                      Scene scene = ball_floor(1e8);
+                      for (auto& material : scene.materials) material.two_sided = true;
+                      scene.lights = {{{0, height, 2}, glm::dvec3(0.75)}};
+                      return scene;
+                  }),
+            size_family("cone-size", "the quadratic's terms cancel for small and for large cones",
+                        0.5, sized_cone),
+            sweep(long_cones_away, {4e2, 4e6}, {4e6},
+                  [](double ratio) {
+                      return labeled(fmt::format("{:g}-from-afar", ratio), ratio,
+                                     picture_case(long_cones(ratio / 4, true)));
+                  }),
+            sweep({"cone-needle", "length over radius",
+                   "thin cones lose their outline and their normals"},
+                  {2e1, 2e2, 2e3, 2e4, 2e6}, {2e1, 2e3},
+                  [](double ratio) {
+                      const double radius = 2 / ratio;
+                      return picture_case(cone_needle(radius), small_tolerance(radius));
+                  }),
+            sweep({"flat-cone", "height over radius", "all hits lie within rounding of both rims"},
+                  {2e-1, 2e-2, 2e-3, 2e-4, 2e-6, 2e-8, 2e-12}, {2e-2, 2e-8},
+                  [](double ratio) { return flat_cone(ratio / 2); }),
+            scaled_and_moved("cylinder-scale",
+                             "absolute epsilons fill small tubes and leave holes in large ones",
+                             tubes()),
+            scaled_and_moved("glass-scale", "absolute epsilons skip the far side of small glass",
+                             glass_still_life()),
+            leaving_cones("leaving-cone", 3,
+                          "an absolute epsilon causes acne on large cones and holes in small ones"),
+            leaving_cones("leaving-far-cone", 1000, "the same with the cone a thousand radii away"),
+            outline_family("cone-rays",
+                           [](double radius) { return past_cone(cone_to_aim_at(radius, 1)); })};
 }
 
 }  // namespace rt

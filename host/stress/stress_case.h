@@ -74,10 +74,10 @@ enum class ReferenceKind {
 /// A scene to be rendered and compared.
 struct PictureTrial {
     std::function<Scene()> scene;
-    /// The reference's scene if it is a different one that looks the same; empty: the scene itself.
-    std::function<Scene()> reference_scene;
+    /// The reference's scene if it is a different one that looks the same.
+    std::optional<Scene> reference_scene;
     ReferenceKind reference = ReferenceKind::quad;
-    std::string same_bits;  ///< trials of a family with the same text here must agree in every bit
+    bool same_bits = false;  ///< agrees in every bit with the family's first such trial
 };
 
 /// Totals over many rays.

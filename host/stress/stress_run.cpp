@@ -116,8 +116,7 @@ class Runner {
         const Stopwatch watch;
         std::optional<ReferencePicture> reference;
         if (trial.reference != ReferenceKind::none) {
-            reference.emplace(trial.reference_scene ? trial.reference_scene() : scene,
-                              trial.reference);
+            reference.emplace(trial.reference_scene.value_or(scene), trial.reference);
         }
         result.reference_seconds = watch.seconds();
         std::optional<Picture> worst;
@@ -148,15 +147,12 @@ class Runner {
                        reference);
     }
 
-    /// Checks that a row has the same bits as the first of its group on this renderer.
+    /// Checks that a row has the same bits as the family's first on this renderer.
     void check_same_bits(const PictureTrial& trial, StressRow& row) {
-        if (trial.same_bits.empty() || !row.why.empty()) return;
-        const std::string key =
-            fmt::format("{} {} {}", trial.same_bits, row.device, to_string(row.precision));
-        const auto [first, is_new] = first_hashes_.try_emplace(key, row.figures.hash);
-        if (!is_new && first->second != row.figures.hash) {
-            row.why = "bits differ from " + trial.same_bits;
-        }
+        if (!trial.same_bits || !row.why.empty()) return;
+        const auto first =
+            first_hashes_.try_emplace({row.device, row.precision}, row.figures.hash).first;
+        if (first->second != row.figures.hash) row.why = "bits differ from the first case";
     }
 
     void run_trial(const StressFamily&, const StressCase& one, const RayTrial& trial,
@@ -201,8 +197,8 @@ class Runner {
     const StressOptions& options_;
     RenderCache& cache_;
     const std::vector<DeviceChoice> devices_;
-    /// The first of each group of pictures that must agree in every bit.
-    std::map<std::string, std::uint64_t> first_hashes_;
+    /// Of each renderer's first picture of a family whose pictures must agree in every bit.
+    std::map<std::pair<std::string, Precision>, std::uint64_t> first_hashes_;
 };
 
 }  // namespace

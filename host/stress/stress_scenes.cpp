@@ -29,42 +29,32 @@ void for_each_point(Scene& scene, const Change& change) {
     }
 }
 
-StressMesh icosahedron() {
+Scene::Mesh icosahedron() {
     const double g = std::numbers::phi;
-    StressMesh mesh{
-        {{-1, g, 0},
-         {1, g, 0},
-         {-1, -g, 0},
-         {1, -g, 0},
-         {0, -1, g},
-         {0, 1, g},
-         {0, -1, -g},
-         {0, 1, -g},
-         {g, 0, -1},
-         {g, 0, 1},
-         {-g, 0, -1},
-         {-g, 0, 1}},
-        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
-    for (auto& vertex : mesh.vertices) vertex = glm::normalize(vertex);
+    Scene::Mesh mesh;
+    mesh.positions = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                      {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    mesh.faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                  {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                  {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                  {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+    for (auto& vertex : mesh.positions) vertex = glm::normalize(vertex);
     return mesh;
 }
 
-StressMesh cut_in_four(StressMesh mesh) {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-        const auto [entry, is_new] =
-            middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
+Scene::Mesh cut_in_four(Scene::Mesh mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [entry, is_new] = middles.try_emplace(
+            std::minmax(a, b), static_cast<std::uint32_t>(mesh.positions.size()));
         if (is_new) {
-            mesh.vertices.push_back(glm::normalize(mesh.vertices[static_cast<std::size_t>(a)] +
-                                                   mesh.vertices[static_cast<std::size_t>(b)]));
+            mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
         }
         return entry->second;
     };
-    std::vector<std::array<int, 3>> faces;
+    std::vector<Scene::Mesh::Face> faces;
     for (const auto& [a, b, c] : mesh.faces) {
-        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        const auto ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
         faces.insert(faces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
     }
     mesh.faces = std::move(faces);
@@ -72,14 +62,15 @@ StressMesh cut_in_four(StressMesh mesh) {
 }
 
 /// Hubs above and below a rim at these angles.
-StressMesh hubs_and_rim(const std::vector<double>& angles) {
-    StressMesh mesh{{{0, 1, 0}, {0, -1, 0}}, {}};
+Scene::Mesh hubs_and_rim(const std::vector<double>& angles) {
+    Scene::Mesh mesh;
+    mesh.positions = {{0, 1, 0}, {0, -1, 0}};
     for (const double angle : angles) {
-        mesh.vertices.push_back({std::cos(angle), 0, -std::sin(angle)});
+        mesh.positions.push_back({std::cos(angle), 0, -std::sin(angle)});
     }
-    const int count = static_cast<int>(angles.size());
-    for (int i = 0; i < count; ++i) {
-        const int a = 2 + i, b = 2 + (i + 1) % count;
+    const auto count = static_cast<std::uint32_t>(angles.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t a = 2 + i, b = 2 + (i + 1) % count;
         mesh.faces.push_back({0, a, b});
         mesh.faces.push_back({1, b, a});
     }
@@ -156,8 +147,8 @@ void add_floor(Scene& scene, glm::dvec3 center, double half_side, int material) 
 }
 
 void add_box(Scene& scene, glm::dvec3 low, glm::dvec3 high, int material) {
-    StressMesh box = box_mesh();
-    for (auto& p : box.vertices) p = glm::mix(low, high, glm::greaterThan(p, glm::dvec3(0)));
+    Scene::Mesh box = box_mesh();
+    for (auto& p : box.positions) p = glm::mix(low, high, glm::greaterThan(p, glm::dvec3(0)));
     add_mesh(scene, box, material);
 }
 
@@ -208,14 +199,6 @@ Scene still_life() {
     return scene;
 }
 
-std::function<Scene()> still_life_with(const std::function<void(Scene&)>& change) {
-    return [=] {
-        Scene scene = still_life();
-        change(scene);
-        return scene;
-    };
-}
-
 Scene glass_still_life() {
     Scene scene = still_life();
     const int clear = add_glass(scene, 1.5, 0.875, 0.0625);
@@ -251,27 +234,27 @@ Scene shifted(Scene scene, glm::dvec3 by) {
     return scene;
 }
 
-StressMesh ball_mesh(int times) {
-    StressMesh mesh = icosahedron();
+Scene::Mesh ball_mesh(int times) {
+    Scene::Mesh mesh = icosahedron();
     for (int i = 0; i < times; ++i) mesh = cut_in_four(std::move(mesh));
     return mesh;
 }
 
-StressMesh bumpy_mesh(int times) {
-    StressMesh mesh = ball_mesh(times);
+Scene::Mesh bumpy_mesh(int times) {
+    Scene::Mesh mesh = ball_mesh(times);
     std::mt19937 engine(7);
     std::uniform_real_distribution<double> radius(0.8, 1.2);
-    for (auto& vertex : mesh.vertices) vertex *= radius(engine);
+    for (auto& vertex : mesh.positions) vertex *= radius(engine);
     return mesh;
 }
 
-StressMesh fan_mesh(int spokes) {
+Scene::Mesh fan_mesh(int spokes) {
     std::vector<double> angles;
     for (int i = 0; i < spokes; ++i) angles.push_back(2 * std::numbers::pi * i / spokes);
     return hubs_and_rim(angles);
 }
 
-StressMesh needle_mesh(int clusters, int needles, double gap) {
+Scene::Mesh needle_mesh(int clusters, int needles, double gap) {
     std::vector<double> angles;
     for (int i = 0; i < clusters; ++i) {
         for (int j = 0; j <= needles; ++j) {
@@ -281,35 +264,34 @@ StressMesh needle_mesh(int clusters, int needles, double gap) {
     return hubs_and_rim(angles);
 }
 
-StressMesh wedge_mesh(double degrees) {
+Scene::Mesh wedge_mesh(double degrees) {
     const double half = degrees * std::numbers::pi / 360, x = std::cos(half), y = std::sin(half);
-    return {
-        {{0, 0, -1}, {x, -y, -1}, {x, y, -1}, {0, 0, 1}, {x, -y, 1}, {x, y, 1}},
-        {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}}};
+    Scene::Mesh mesh;
+    mesh.positions = {{0, 0, -1}, {x, -y, -1}, {x, y, -1}, {0, 0, 1}, {x, -y, 1}, {x, y, 1}};
+    mesh.faces = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                  {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+    return mesh;
 }
 
-StressMesh box_mesh() {
-    StressMesh mesh;
+Scene::Mesh box_mesh() {
+    Scene::Mesh mesh;
     for (int i = 0; i < 8; ++i) {
-        mesh.vertices.push_back({(i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1});
+        mesh.positions.push_back({(i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1});
     }
-    for (const auto& [a, b, c, d] :
-         {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
-          std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
-        mesh.faces.insert(mesh.faces.end(), {{a, b, c}, {a, c, d}});
-    }
+    mesh.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                  {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return mesh;
 }
 
-StressMesh placed(StressMesh mesh, double scale, glm::dvec3 to) {
-    for (auto& vertex : mesh.vertices) vertex = scale * vertex + to;
+Scene::Mesh placed(Scene::Mesh mesh, double scale, glm::dvec3 to) {
+    for (auto& vertex : mesh.positions) vertex = scale * vertex + to;
     return mesh;
 }
 
-void add_mesh(Scene& scene, const StressMesh& mesh, int material) {
-    const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
+void add_mesh(Scene& scene, const Scene::Mesh& mesh, int material) {
+    const auto& points = mesh.positions;
     for (const auto& [a, b, c] : mesh.faces) {
-        add_triangle(scene, vertex(a), vertex(b), vertex(c), material);
+        add_triangle(scene, points[a], points[b], points[c], material);
     }
 }
 

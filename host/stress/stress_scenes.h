@@ -16,9 +16,6 @@ namespace rt {
 /// Four balls (one a mirror), a pyramid, a slightly reflective floor, two lights, five bounces.
 Scene still_life();
 
-/// Makes it, changed.
-std::function<Scene()> still_life_with(const std::function<void(Scene&)>& change);
-
 /// It with glass balls, a slightly reflective glass box, a cone, a tube and a frustum.
 Scene glass_still_life();
 
@@ -66,33 +63,29 @@ Scene scaled(Scene scene, double factor);
 
 Scene shifted(Scene scene, glm::dvec3 by);
 
-/// A mesh with shared vertices, counterclockwise from outside.
-struct StressMesh {
-    std::vector<glm::dvec3> vertices;
-    std::vector<std::array<int, 3>> faces;
-};
+// Meshes of positions and faces.
 
 /// An icosahedron (20 faces) on the unit sphere, each face split in four `times` times.
-StressMesh ball_mesh(int times);
+Scene::Mesh ball_mesh(int times);
 
 /// The same with its vertices moved in and out by up to a fifth, at random.
-StressMesh bumpy_mesh(int times);
+Scene::Mesh bumpy_mesh(int times);
 
 /// Two hubs joined to the same rim of `spokes` points: closed, thin at the hubs.
-StressMesh fan_mesh(int spokes);
+Scene::Mesh fan_mesh(int spokes);
 
 /// A fan whose rim points come in clusters `gap` wide: needles of length 1 among wide triangles.
-StressMesh needle_mesh(int clusters, int needles, double gap);
+Scene::Mesh needle_mesh(int clusters, int needles, double gap);
 
 /// A prism along z over a triangle: two sides of length 1 that meet at this angle.
-StressMesh wedge_mesh(double degrees);
+Scene::Mesh wedge_mesh(double degrees);
 
 /// A box from -1 to 1.
-StressMesh box_mesh();
+Scene::Mesh box_mesh();
 
 /// Scaled, then moved.
-StressMesh placed(StressMesh mesh, double scale, glm::dvec3 to);
+Scene::Mesh placed(Scene::Mesh mesh, double scale, glm::dvec3 to);
 
-void add_mesh(Scene& scene, const StressMesh& mesh, int material);
+void add_mesh(Scene& scene, const Scene::Mesh& mesh, int material);
 
 }  // namespace rt

@@ -220,46 +220,46 @@ Scene box_on_floor(double height) {
 
 StressFamilies triangle_families() {
     const auto square = [](Copy copy) {
-        return seen_as(single_square, picture_case([=] { return duplicate_square(copy); }));
+        return seen_as(single_square(), picture_case(duplicate_square(copy)));
     };
-    const auto overlap = [](bool cut) { return [=] { return overlapping_squares(cut); }; };
     const auto ball = [](double moved, ReferenceKind reference) {
-        return picture_case([=] { return duplicate_ball(moved); }, {}, reference);
+        return picture_case(duplicate_ball(moved), {}, reference);
     };
-    const auto near = [](auto scene) {
-        return seen_as([=] { return scene(1e-9); }, picture_case([=] { return scene(0); }));
-    };
+    const auto near = [](auto scene) { return seen_as(scene(1e-9), picture_case(scene(0))); };
     const auto same = [](double apart) { return blocks(apart, 1.5); };
     const auto other = [](double apart) { return blocks(apart, 1.25); };
     return {
         listed({"ties", "what is duplicated",
                 "where surfaces coincide, rounding or the order of tests picks the color"},
-               {{"same", InQuick::no, square(Copy::same)},
-                {"other-diagonal", InQuick::yes, square(Copy::other_diagonal)},
-                {"turned", InQuick::no, square(Copy::turned)},
-                {"reversed", InQuick::no, square(Copy::reversed_order)},
-                {"overlapping", InQuick::yes, seen_as(overlap(true), picture_case(overlap(false)))},
-                {"tube", InQuick::yes, seen_as(single_tube, picture_case(duplicate_tube))},
-                {"ball", InQuick::no, ball(0, ReferenceKind::quad)},
-                {"two-sheets", InQuick::yes, picture_case(two_sheets)},
-                {"ball-moved-1e-7", InQuick::yes, ball(1e-7, ReferenceKind::none)}}),
+               {{"same", square(Copy::same)},
+                {"other-diagonal", quick(square(Copy::other_diagonal))},
+                {"turned", square(Copy::turned)},
+                {"reversed", square(Copy::reversed_order)},
+                {"overlapping", quick(seen_as(overlapping_squares(true),
+                                              picture_case(overlapping_squares(false))))},
+                {"tube", quick(seen_as(single_tube(), picture_case(duplicate_tube())))},
+                {"ball", ball(0, ReferenceKind::quad)},
+                {"two-sheets", quick(picture_case(two_sheets()))},
+                {"ball-moved-1e-7", quick(ball(1e-7, ReferenceKind::none))}}),
         sweep({"coincident", "primitives",
                "a million primitives in one place: ties everywhere, a hierarchy without a split"},
               {1000, 1'000'000}, {1000},
               [](int count) {
-                  return seen_as([] { return pile(2); }, picture_case([=] { return pile(count); }));
+                  StressCase one = seen_as(pile(2), picture_case(Scene()));
+                  std::get<PictureTrial>(one.trial).scene = [=] { return pile(count); };
+                  return one;
               }),
         // Glass that touches glass or something else looks as if it were a hair away.
         listed({"touching", "what touches",
                 "refracted rays are caught between surfaces that share an edge or a place"},
-               {{"halves-of-a-pane", InQuick::yes, picture_case(pane)},
-                {"halves-lit-from-behind", InQuick::yes, picture_case(sheet_from_behind)},
-                {"blocks", InQuick::yes, near(same)},
-                {"blocks-of-two-kinds", InQuick::no, near(other)},
-                {"box-on-a-floor", InQuick::yes, near(box_on_floor)}}),
+               {{"halves-of-a-pane", quick(picture_case(pane()))},
+                {"halves-lit-from-behind", quick(picture_case(sheet_from_behind()))},
+                {"blocks", quick(near(same))},
+                {"blocks-of-two-kinds", near(other)},
+                {"box-on-a-floor", quick(near(box_on_floor))}}),
         listed({"crossing", "scene",
                 "faces through faces and balls: points within rounding of a neighbor"},
-               {{"crossing", InQuick::yes, picture_case(crossing_scene)}}, 1),
+               {{"crossing", quick(picture_case(crossing_scene()))}}),
         sweep({"needles", "length over width",
                "distances to thin triangles are inaccurate, and gaps open next to them"},
               {1e2, 1e3, 1e4, 1e6, 1e8}, {1e4, 1e6}, needle_fan),

@@ -154,8 +154,7 @@ MUTANTS = [
          "if (hashes.size() < 200) continue;"),
     ], cli("measure_cases.Stress.test_devices_that_disagree_in_a_bit_fail")),
     Mutant("stress ignores same_bits", [
-        ("host/stress/stress_run.cpp", "if (!is_new && first->second != row.figures.hash) {",
-         "if (is_new && first->second != row.figures.hash) {"),
+        ("host/stress/stress_run.cpp", "if (!trial.same_bits ||", "if (trial.same_bits ||"),
     ], [("host_stress_test", "StressRun.CasesThatShouldHaveTheSameBits*")]),
     Mutant("kernel seconds times 7", [
         ("host/opencl/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
