@@ -70,8 +70,8 @@ int report_bad_rows(const std::vector<Row>& rows, bool interrupted, const Name& 
 std::string bench_text(const BenchResult& result);
 std::string converge_text(const ConvergeResult& result);
 
-/// The verdict, then a line per family: its worst figures, the broken cases below. Verbose: also
-/// why a family matters, and a line per case and renderer.
+/// The verdict, then a line per family: its worst figures, and below a line for each case and
+/// renderer that failed. Verbose: also why a family matters, and a line for every one.
 std::string stress_text(const StressResult& result, bool verbose);
 
 /// The names of the families and their cases; those of --quick are marked.

@@ -48,9 +48,11 @@ std::string row_verdict(const StressRow& row) {
     return row.why.empty() ? "pass" : "FAIL: " + row.why;
 }
 
-std::string case_lines(const StressCaseResult& one) {
+/// A line per row that failed; verbose: per row.
+std::string case_lines(const StressCaseResult& one, bool verbose) {
     std::string text;
     for (const StressRow& row : one.rows) {
+        if (row.passed() && !verbose) continue;
         text += fmt::format("  {:<24} {:<44} {:<40} {:>8.4f} s  {}\n", one.label, row_name(row),
                             row_figures(row), row.seconds, row_verdict(row));
     }
@@ -60,29 +62,12 @@ std::string case_lines(const StressCaseResult& one) {
     return text;
 }
 
-std::string broken_lines(const StressFamilyResult& family) {
-    std::string text;
-    for (const StressCaseResult& one : family.cases) {
-        for (const StressRow& row : one.rows) {
-            if (row.passed()) continue;
-            text += fmt::format("    FAIL {}/{}, {}: {}\n", family.name, one.label, row_name(row),
-                                row.why);
-        }
-        if (one.disagreement.empty()) continue;
-        text += fmt::format("    FAIL {}/{}: {}\n", family.name, one.label, one.disagreement);
-    }
-    return text;
-}
-
 std::string family_lines(const StressFamilyResult& family, bool verbose) {
     std::string text = fmt::format("{:<4} {:<20} {}\n", family.passed() ? "pass" : "FAIL",
                                    family.name, family_figures(family));
-    if (verbose) {
-        text += fmt::format("     {}\n", family.why);
-        for (const StressCaseResult& one : family.cases) text += case_lines(one);
-        return text;
-    }
-    return text + broken_lines(family);
+    if (verbose) text += fmt::format("     {}\n", family.why);
+    for (const StressCaseResult& one : family.cases) text += case_lines(one, verbose);
+    return text;
 }
 
 }  // namespace
