@@ -54,8 +54,6 @@ void add_sweep(Verb& verb, ConvergeCall& converge) {
     add_device_list(verb, "--devices", converge.devices);
     verb.value("--threads", "N", converge.threads, count_in(1, most_threads),
                "number of threads for 'threads' (default: all cores)");
-    verb.flag("--scalar", converge.scalar,
-              "also time pthreads tracing one ray at a time, without vectors (float)");
     add_precisions(verb, converge.precisions);
     add_choice(verb, "--math", converge.math, math_choices,
                "strict (default), fast (OpenCL devices only) or both");

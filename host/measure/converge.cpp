@@ -298,36 +298,17 @@ ConvergedPicture converged_picture(const Scene& scene, const ConvergeOptions& op
     return converged;
 }
 
-struct SweptDevice {
-    DeviceChoice choice;
-    bool is_scalar = false;  ///< threads that trace one ray at a time
-
-    std::string spec() const { return choice.spec() + (is_scalar ? " scalar" : ""); }
-};
-
-/// The devices named, plus scalar threads if requested.
-std::vector<SweptDevice> swept_devices(const ConvergeOptions& options) {
-    std::vector<SweptDevice> devices;
-    for (const DeviceChoice& choice : listed_devices(options.devices)) {
-        devices.push_back({choice});
-        if (options.scalar && choice.use_threads) devices.push_back({choice, true});
-    }
-    return devices;
-}
-
-/// The pictures of one device's sweep, in its order. Omits double on devices without it and on
-/// scalar threads, which only show what vectors gain, and fast math on threads: it is an OpenCL
-/// compiler option.
+/// The pictures of one device's sweep, in its order. Omits double on devices without it, and fast
+/// math on threads: it is an OpenCL compiler option.
 std::vector<PictureSpec> swept_pictures(const ConvergeOptions& options, const Scene& scene,
                                         const std::vector<int>& bounces,
-                                        const SweptDevice& device) {
-    const bool can_do_double = device.choice.has_double() && !device.is_scalar;
+                                        const DeviceChoice& device) {
     std::vector<PictureSpec> pictures;
     PictureSpec picture = picture_spec(scene, {});
     for (const Precision precision : options.precisions) {
-        if (precision == Precision::float64 && !can_do_double) continue;
+        if (precision == Precision::float64 && !device.has_double()) continue;
         for (const Math math : options.math) {
-            if (math == Math::fast && device.choice.use_threads) continue;
+            if (math == Math::fast && device.use_threads) continue;
             picture.precision = precision;
             picture.math = math;
             for (const int max_bounces : bounces) {
@@ -343,20 +324,18 @@ std::vector<PictureSpec> swept_pictures(const ConvergeOptions& options, const Sc
 }
 
 /// What it takes to time each of the points, which are added to the result.
-std::vector<TimedCase> plan(const ConvergeOptions& options, const std::vector<SweptDevice>& devices,
-                            const TimedScene& scene, const std::vector<int>& bounces,
-                            ConvergeResult& result) {
+std::vector<TimedCase> plan(const ConvergeOptions& options,
+                            const std::vector<DeviceChoice>& devices, const TimedScene& scene,
+                            const std::vector<int>& bounces, ConvergeResult& result) {
     std::vector<TimedCase> cases;
-    for (const SweptDevice& device : devices) {
-        const DeviceChoice& choice = device.choice;
+    for (const DeviceChoice& device : devices) {
         for (const PictureSpec& picture : swept_pictures(options, scene.scene, bounces, device)) {
-            result.points.emplace_back().asked = {device.spec(), choice.name(), picture};
+            result.points.emplace_back().asked = {device.spec(), device.name(), picture};
             TimedCase& timed = cases.emplace_back();
             timed.scene = &scene;
-            timed.device = choice;
+            timed.device = device;
             timed.settings = timed_settings(settings_for(picture));
-            if (device.is_scalar) timed.settings.kernels.lanes = 1;
-            if (choice.use_threads && choice.threads == 0) {
+            if (device.use_threads && device.threads == 0) {
                 timed.settings.threads = options.threads;
             }
         }
@@ -366,7 +345,6 @@ std::vector<TimedCase> plan(const ConvergeOptions& options, const std::vector<Sw
 
 /// A picture as threads compute it, with an estimate of its error; empty if the render was stopped.
 std::optional<RenderStats> picture_of_threads(Scene scene, RenderSettings settings) {
-    settings.kernels.lanes = 0;
     settings.estimate = true;
     apply_overrides(scene, settings);
     RenderStats stats = render_quietly(scene, settings, threads_choice()).stats;
@@ -402,7 +380,8 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     ConvergeResult result;
     result.repeats_asked = options.repeats;
     other_load();
-    const auto devices = swept_devices(options);  // a bad driver ends this process before it reads
+    // First, for a bad driver may end this process.
+    const auto devices = listed_devices(options.devices);
     TimedScene loaded = load_timed_scene(options.scene, options.light, options.quiet);
     Scene& scene = loaded.scene;
     say_busy(options.quiet);

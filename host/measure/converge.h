@@ -198,8 +198,7 @@ struct ConvergeOptions {
     std::optional<PictureSize> size;  ///< default: the scene's
     std::vector<AaMode> aa;
     std::vector<std::string> devices{"all"};
-    int threads = 0;      ///< of the pthreads renderer; 0: all cores
-    bool scalar = false;  ///< also threads one ray at a time, in float
+    int threads = 0;  ///< of the pthreads renderer; 0: all cores
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     std::vector<Math> math{Math::strict};
     std::vector<int> max_bounces;  ///< empty: the scene's

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 
 #include "host/base/text.h"
 #include "host/base/version.h"
@@ -167,17 +166,6 @@ std::string row_text(const BenchRow& row) {
                        ratio_cell(figures->amdahl), error ? error->rmse : 0);
 }
 
-/// Which rows gave which picture; in strict arithmetic they are all the same.
-std::string images_text(const std::map<std::string, std::vector<std::string>>& images) {
-    std::string text;
-    for (const auto& [hash, devices] : images) {
-        const bool is_alone = images.size() == 1;
-        text += fmt::format("  image {} {}\n", hash,
-                            is_alone ? "from all" : fmt::format("{}", fmt::join(devices, ", ")));
-    }
-    return text;
-}
-
 std::string header_text() {
     return fmt::format("{:>65}\n", "speed-up of") +
            fmt::format(" {:<19} {:>8} {:>3} {:>8} {:>3} {:>6} {:>5} {:>5} {:>6} {:>7}\n", "device",
@@ -197,20 +185,14 @@ constexpr const char* legend =
 std::string bench_text(const BenchResult& result) {
     std::string text = busy_text(result.load_before), group;
     if (!text.empty()) text += "\n\n";
-    std::map<std::string, std::vector<std::string>> images;
     for (const BenchRow& row : result.rows) {
         if (const std::string next = group_of(row.asked); next != group) {
-            text += images_text(images) + (group.empty() ? "" : "\n") + next + "\n" +
-                    estimate_line(result, row.asked) + header_text();
-            images.clear();
+            text += (group.empty() ? "" : "\n") + next + "\n" + estimate_line(result, row.asked) +
+                    header_text();
             group = next;
         }
         text += row_text(row);
-        if (row.repeats.empty()) continue;
-        const std::string schedule = row.asked.schedule.empty() ? "" : "/" + row.asked.schedule;
-        images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
     }
-    text += images_text(images);
     text += fmt::format("\n{}; other load {:.2f}\n{}",
                         rounds_text(result.rows, result.repeats_asked, result.interrupted),
                         result.load_before, legend);
