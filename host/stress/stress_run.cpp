@@ -91,8 +91,7 @@ class Runner {
     }
 
    private:
-    /// Adds a row for each device and precision that measure(device, row) fills in; it returns
-    /// false if a signal stopped it.
+    /// Adds a row for each device and precision, filled in by measure(device, row), until a signal.
     template <typename Measure>
     void add_rows(const StressCase& one, std::vector<StressRow>& rows, const Measure& measure) {
         for (const DeviceChoice& device : devices_) {
@@ -104,7 +103,13 @@ class Runner {
                 row.device = device.spec();
                 row.precision = precision;
                 row.judged = is_double || one.tolerance.in_float;
-                if (stop_flag() != 0 || !measure(device, row)) return;
+                try {
+                    measure(device, row);
+                } catch (const Error& error) {
+                    row.why = first_line(error.what());
+                    row.judged = true;
+                }
+                if (stop_flag() != 0) return;
                 rows.push_back(std::move(row));
             }
         }
@@ -122,25 +127,19 @@ class Runner {
         std::optional<Picture> worst;
         double badness = 0;
         add_rows(one, result.rows, [&](const DeviceChoice& device, StressRow& row) {
-            try {
-                const RenderedPicture rendered =
-                    render_quietly(scene, row_settings(row, options_), device, &cache_);
-                if (!rendered.stats.complete()) return false;
-                row.seconds = rendered.stats.phases.renderer.trace;
-                row.figures = reference ? judge_stress_picture(rendered.picture, *reference)
-                                        : count_non_numbers(rendered.picture);
-                row.figures.hash = rendered.stats.image_hash;
-                row.why = exceeded_tolerance(row.figures, one.tolerance);
-                if (!worst || badness_of(row.figures) > badness) {
-                    worst = rendered.picture;
-                    badness = badness_of(row.figures);
-                }
-            } catch (const Error& error) {
-                row.why = first_line(error.what());
-                row.judged = true;
+            const RenderedPicture rendered =
+                render_quietly(scene, row_settings(row, options_), device, &cache_);
+            if (!rendered.stats.complete()) return;
+            row.seconds = rendered.stats.phases.renderer.trace;
+            row.figures = reference ? judge_stress_picture(rendered.picture, *reference)
+                                    : count_non_numbers(rendered.picture);
+            row.figures.hash = rendered.stats.image_hash;
+            row.why = exceeded_tolerance(row.figures, one.tolerance);
+            if (!worst || badness_of(row.figures) > badness) {
+                worst = rendered.picture;
+                badness = badness_of(row.figures);
             }
             check_same_bits(trial, row);
-            return true;
         });
         if (options_.output.empty() || !worst) return;
         write_pictures(options_.output + "/" + file_stem(family.name + "-" + one.label), *worst,
@@ -160,23 +159,16 @@ class Runner {
         const std::uint64_t rays = options_.quick ? trial.quick_rays : trial.rays;
         add_rows(one, result.rows, [&](const DeviceChoice& device, StressRow& row) {
             const Stopwatch watch;
-            try {
-                const DriverTask task(device.use_threads ? "" : row.renderer);
-                const RayCaster caster = ray_caster(device, cache_.devices);
-                row.rays = trial.run(rays, caster, row.precision);
-                StressTolerance tolerance = one.tolerance;
-                if (row.precision == Precision::float64) {  // more than float can reach
-                    tolerance.max_error = std::min(tolerance.max_error, 1e-9);
-                    if (tolerance.most_wrong < rays)
-                        tolerance.most_wrong = std::min<std::size_t>(tolerance.most_wrong, 4);
-                }
-                row.why = exceeded_tolerance(*row.rays, tolerance);
-            } catch (const Error& error) {
-                row.why = first_line(error.what());
-                row.judged = true;
+            const DriverTask task(device.use_threads ? "" : row.renderer);
+            row.rays = trial.run(rays, ray_caster(device, cache_.devices), row.precision);
+            StressTolerance tolerance = one.tolerance;
+            if (row.precision == Precision::float64) {  // more than float can reach
+                tolerance.max_error = std::min(tolerance.max_error, 1e-9);
+                if (tolerance.most_wrong < rays)
+                    tolerance.most_wrong = std::min<std::size_t>(tolerance.most_wrong, 4);
             }
+            row.why = exceeded_tolerance(*row.rays, tolerance);
             row.seconds = watch.seconds();
-            return true;
         });
     }
 
