@@ -262,11 +262,8 @@ bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
 }
 
 void say_busy(bool quiet) {
-    static bool said = false;
     const std::string text = busy_text(other_load());
-    if (quiet || said || text.empty()) return;
-    said = true;
-    print_note(text);
+    if (!quiet && !text.empty()) print_note(text);
 }
 
 }  // namespace rt

@@ -170,7 +170,7 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
 /// Prints a line on stderr for each round unless `quiet`. Returns whether it ran to the end.
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet);
 
-/// Warns on stderr, once and unless `quiet`, that the machine is busy with other work.
+/// Warns on stderr, unless `quiet`, that the machine is busy with other work.
 void say_busy(bool quiet);
 
 }  // namespace rt
