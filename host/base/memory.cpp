@@ -16,8 +16,7 @@
 
 namespace rt {
 
-void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
-#ifdef MADV_HUGEPAGE
+void advise_huge_pages(void* memory, std::size_t bytes) {
     constexpr std::size_t worthwhile = std::size_t{4} << 20;
     if (bytes < worthwhile) return;
     const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
@@ -25,7 +24,6 @@ void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size
     const std::uintptr_t first = (start + page - 1) / page * page;
     const std::uintptr_t end = (start + bytes) / page * page;
     madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
-#endif
 }
 
 namespace {

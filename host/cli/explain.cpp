@@ -44,10 +44,6 @@ Scene scene_to_explain(const ExplainOptions& options) {
     return scene;
 }
 
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 std::string explanation(const ExplainOptions& options, const Scene& scene,
                         const ExplainedPixel& pixel, const std::vector<SampleTree>& trees) {
     if (options.json) {
@@ -74,7 +70,9 @@ int run_explain(const ExplainOptions& options) {
     const FlatScene<double> flat = flatten<double>(scene);
     const ExplainedPixel pixel = explain_pixel(flat, options.x, options.y);
     print_result(explanation(options, scene, pixel, ray_trees(pixel, scene, flat)));
-    return static_cast<int>(is_finite(pixel.color) ? ExitCode::done : ExitCode::non_finite);
+    const glm::dvec3 c = pixel.color;
+    const bool is_finite = std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+    return static_cast<int>(is_finite ? ExitCode::done : ExitCode::non_finite);
 }
 
 constexpr int most_samples = 64;  // beyond, nobody reads the trees

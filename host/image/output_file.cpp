@@ -7,7 +7,6 @@
 #include <sys/vfs.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <system_error>
@@ -231,10 +230,8 @@ void AtomicFile::name_temporary(Create create) {
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
-    constexpr std::size_t largest_write = std::size_t{1} << 30;
     while (!bytes.empty()) {
-        const ssize_t count =
-            ::write(file_.number(), bytes.data(), std::min(bytes.size(), largest_write));
+        const ssize_t count = ::write(file_.number(), bytes.data(), bytes.size());
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) fail_to_write(path_, errno);
         if (count == 0) fail_to_write(path_, EIO);

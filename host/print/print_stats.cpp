@@ -222,13 +222,6 @@ std::string kernel_name() {
     return std::string(system.sysname) + " " + system.release + " " + system.machine;
 }
 
-/// null where the system does not report it.
-Json memory_json() {
-    const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    if (pages <= 0 || page_size <= 0) return nullptr;
-    return static_cast<std::int64_t>(pages) * page_size;
-}
-
 /// The one-minute load average, in hundredths as the system reports it; null where it does not.
 Json load_json() {
     double load = 0;
@@ -253,7 +246,7 @@ Json environment_json() {
             {"compiler", compiler},
             {"cpu", cpu_name()},
             {"cores", available_cores()},
-            {"memory_bytes", memory_json()},
+            {"memory_bytes", std::int64_t{sysconf(_SC_PHYS_PAGES)} * sysconf(_SC_PAGESIZE)},
             {"os", os_name()},
             {"kernel", kernel_name()},
             {"load", load_json()}};
