@@ -50,7 +50,7 @@ class JournalFile {
     void append(std::span<const std::byte> records);
 
     /// Removes the file, unless it holds another picture: restarted, and nothing written since.
-    /// What is appended then creates it anew.
+    /// What is appended then creates it again.
     void remove();
 
     /// Stops writing and stores the reason.
