@@ -7,7 +7,6 @@ import re
 import signal
 import stat
 import subprocess
-import threading
 import time
 
 import numpy
@@ -144,18 +143,12 @@ def test_progress_goes_to_one():
 def test_an_interrupt_stops_the_program(tmp_path, monkeypatch):
     pid = tmp_path / "pid"
     waits = tmp_path / "waits"
-    waits.write_text(f"#!/bin/sh\necho $$ > {pid}\nexec sleep 60\n")
+    waits.write_text(f"#!/bin/sh\necho $$ > {pid}\necho '{{\"fraction\": 0}}' >&2\nexec sleep 60\n")
     waits.chmod(waits.stat().st_mode | stat.S_IXUSR)
     monkeypatch.setenv("MIRRORBALL", str(waits))
 
-    def interrupt():
-        while not (pid.exists() and pid.read_text().strip()):
-            time.sleep(0.01)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    threading.Thread(target=interrupt, daemon=True).start()
     with pytest.raises(KeyboardInterrupt):
-        mirrorball.render(PAPER)
+        mirrorball.render(PAPER, progress=lambda _: os.kill(os.getpid(), signal.SIGINT))
     with pytest.raises(ProcessLookupError):
         os.kill(int(pid.read_text()), 0)
 
