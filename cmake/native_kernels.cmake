@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # add_native_kernels(LIBRARY): the kernels compiled ahead of time for pthreads (kernels/native), one object a
-# variant, and native_table.h, a table of them all. GCC knows no OpenCL C, so clang compiles them whatever builds the host.
+# variant, and native_table.h, a table of them all. GCC knows no OpenCL C, so clang compiles them whatever
+# builds the host.
 option(MIRRORBALL_NATIVE "Compile kernels for pthreads; without them, pictures need an OpenCL device" ON)
 if(MIRRORBALL_NATIVE)
     find_program(KERNEL_CLANG NAMES clang-19 clang-20 clang-18 clang-17 clang)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # tests/native_probes.cl compiled ahead of time: a shared object for each precision and width of a
-# packet in NATIVE_PROBES: the narrowest, a middle one and the widest. With the flags of pthreads' kernels, but less optimized: each probe holds
-# all it calls, and would take long.
+# packet in NATIVE_PROBES: the narrowest, a middle one and the widest. With the flags of pthreads' kernels,
+# but less optimized: each probe holds all it calls, and would take long.
 file(MAKE_DIRECTORY ${NATIVE_PROBES})
 set(native_probe_flags ${NATIVE_KERNEL_FLAGS} -O1
     -DRT_RENDERS_PIXELS=0 -DRT_RENDERS_SAMPLES=0 -DRT_RENDERS_ADAPTIVE=0 -DRT_TRACES_RAYS=0)
