@@ -10,6 +10,10 @@
 #include "kernels/hit_surface.cl"
 #include "kernels/search.cl"
 
+#ifndef RT_SEARCH_OUT_OF_LINE  // kernels/probes/probes.cl
+#define RT_SEARCH_OUT_OF_LINE
+#endif
+
 // A surface's material and the side that the ray meets: one number.
 Indices side_of(const Surface* surface, real3 dir) {
     Mask inside = dot3(surface->geometric, dir) > (Reals)0;
@@ -106,7 +110,7 @@ void search_all(const SceneView* scene, const Ray* ray, const RayShear* shear, S
 }
 
 // The nearest hits of the rays in the live lanes.
-Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
+RT_SEARCH_OUT_OF_LINE Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
     RayShear shear = make_shear(ray, live);
     Search search;
     search.hit.t = live ? (Reals)INFINITY : (Reals)-1;
@@ -202,8 +206,8 @@ bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
 // Whether anything lies on the rays in (0, t_max], towards the light with place `light` in the bits
 // of Sphere::touches. Without a hierarchy, tests caster_count triangles of the caster list from
 // first_caster on, or all triangles if that is their number.
-Mask any_hit(const SceneView* scene, const Ray* ray, Index light, Index first_caster,
-             Index caster_count) {
+RT_SEARCH_OUT_OF_LINE Mask any_hit(const SceneView* scene, const Ray* ray, Index light,
+                                   Index first_caster, Index caster_count) {
     Reals t_max = ray->t_max;
     Traversal traversal = begin_traversal(ray, t_max > (Reals)0);
     bool is_done = RT_HAS(SPHERES) && blocked_by_spheres(scene, ray, light, &traversal, &t_max);

@@ -6,6 +6,14 @@
 // call: PoCL makes three copies of a kernel, so there these stay calls (host/opencl/pocl.h). A GPU
 // would copy their arguments to its slow memory, so elsewhere they are inlined at any size.
 
+#include "kernels/features.h"
+
+// Where several kernels of a program hold the tracer, it stays a call for PoCL, too: inlined, it is
+// a few percent faster, but takes up to twice as long to compile.
+#if defined(RT_ITEM) && !RT_RENDERS_PIXELS && !RT_RENDERS_SAMPLES
+#define RT_OUT_OF_LINE RT_ITEM
+#endif
+
 #include "kernels/items.cl"
 
 #ifndef RT_ITEM
