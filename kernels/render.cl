@@ -10,15 +10,13 @@
 
 // Where several kernels of a program hold the tracer, it stays a call for PoCL, too: inlined, it is
 // a few percent faster, but takes up to twice as long to compile.
-#if defined(RT_ITEM) && !RT_RENDERS_PIXELS && !RT_RENDERS_SAMPLES
+#ifndef RT_ITEM
+#define RT_ITEM __attribute__((always_inline))
+#elif !RT_RENDERS_PIXELS && !RT_RENDERS_SAMPLES
 #define RT_OUT_OF_LINE RT_ITEM
 #endif
 
 #include "kernels/items.cl"
-
-#ifndef RT_ITEM
-#define RT_ITEM __attribute__((always_inline))
-#endif
 
 #define RT_SCENE_ARGUMENT(type, name, what) __global const type *restrict name,
 #define RT_SCENE_ARGUMENTS RT_SCENE_ARRAYS(RT_SCENE_ARGUMENT) LaunchParams params

@@ -7,8 +7,8 @@
 //
 // A packet holds RT_LANES items, one per lane. A function that takes one primitive for all lanes is
 // called once per lane with that lane's primitive, and only that lane's result is kept.
-#ifdef RT_ITEM
-#define RT_SEARCH_OUT_OF_LINE RT_ITEM  // likewise: most probes that take a scene hold it
+#ifdef RT_ITEM  // PoCL (kernels/render.cl): most probes that take a scene search it
+#define RT_SEARCH_OUT_OF_LINE RT_ITEM
 #endif
 #include "kernels/render.cl"
 // It uses the tracer's types.
