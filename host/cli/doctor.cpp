@@ -15,9 +15,9 @@
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
 #include "host/image/picture_io.h"
+#include "host/measure/timing.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/pocl.h"
-#include "host/picture/render_picture.h"
 #include "host/print/print_stats.h"
 #include "host/process/drivers.h"
 #include "host/record/record.h"
@@ -66,16 +66,12 @@ void describe(A& a, X& x) {
 
 /// Throws what rendering throws.
 std::uint64_t hash_of_known_picture(const DeviceChoice& device, Precision precision) {
-    RenderSettings settings;
+    RenderSettings settings = timed_settings();
     settings.size = size;
     settings.precision = precision;
-    settings.no_fallback = true;
-    settings.self_test = false;
     Scene scene = load_default_scene();
     apply_overrides(scene, settings);
-    static const StopFlag never_stopped{0};
-    const auto devices = [&] { return std::vector{device}; };
-    return render_picture(scene, settings, devices, {}, never_stopped).stats.image_hash;
+    return render_quietly(scene, settings, device).stats.image_hash;
 }
 
 /// Empty if the device renders the right picture.
@@ -214,21 +210,21 @@ std::vector<Finding> examine(const DoctorOptions& options) {
     return findings;
 }
 
-void print_findings(const std::vector<Finding>& findings, bool is_well) {
+std::string findings_text(const std::vector<Finding>& findings, bool is_well) {
     std::string text = fmt::format("mirrorball {} ({})\n", version, git_revision);
     for (const Finding& finding : findings) {
         text += fmt::format("{:<8} {}: {}\n", name_of(states, finding.state), finding.what,
                             finding.verdict);
     }
-    print_result(text + (is_well ? "everything installed works\n" : "something is broken\n"));
+    return text + (is_well ? "everything installed works\n" : "something is broken\n");
 }
 
-void print_findings_json(const std::vector<Finding>& findings, bool is_well) {
-    print_result(json_text({{"format", "mirrorball-doctor"},
-                            {"version", 1},
-                            {"program", fmt::format("{} ({})", version, git_revision)},
-                            {"well", is_well},
-                            {"findings", json_of(findings)}}));
+std::string findings_json(const std::vector<Finding>& findings, bool is_well) {
+    return json_text({{"format", "mirrorball-doctor"},
+                      {"version", 1},
+                      {"program", fmt::format("{} ({})", version, git_revision)},
+                      {"well", is_well},
+                      {"findings", json_of(findings)}});
 }
 
 int run_doctor(const DoctorOptions& options) {
@@ -239,11 +235,8 @@ int run_doctor(const DoctorOptions& options) {
             : std::vector{test_in_worker(options, options.device, options.device, {})};
     bool is_well = true;
     for (const Finding& finding : findings) is_well &= finding.state != State::broken;
-    if (options.json) {
-        print_findings_json(findings, is_well);
-    } else {
-        print_findings(findings, is_well);
-    }
+    print_result(options.json ? findings_json(findings, is_well)
+                              : findings_text(findings, is_well));
     return static_cast<int>(is_well ? ExitCode::done : ExitCode::device);
 }
 

@@ -20,22 +20,11 @@ namespace {
 constexpr int strips = 4;
 constexpr double strip_samples = 8192;
 
-const StopFlag never_stopped = 0;
-
 template <typename T>
 std::unique_ptr<Renderer<T>> checking_renderer(const FlatScene<T>& scene, const std::string& isa) {
     ThreadsOptions options;
     options.kernels.isa = isa;
     return make_threads_renderer(scene, options);
-}
-
-/// Also the rays that it took.
-template <typename T>
-std::pair<Film<T>, RayCounts> rendered(Renderer<T>& renderer, const Rect& region) {
-    Film<T> film(region.width, region.height);
-    TileQueue queue({region}, never_stopped);
-    renderer.render(queue, region, film);
-    return {std::move(film), queue.rays()};
 }
 
 /// Compares bits: a NaN equals itself, and 0 is not -0.
@@ -87,8 +76,8 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
                const std::string& isa) {
     const auto threads = checking_renderer(scene, isa);
     for (const Rect& strip : test_strips(device, scene.params)) {
-        const auto [film, rays] = rendered(device, strip);
-        const auto [right, right_rays] = rendered(*threads, strip);
+        const auto [film, rays] = render_region(device, strip);
+        const auto [right, right_rays] = render_region(*threads, strip);
         const std::size_t wrong = differing_pixels(film, right);
         if (wrong == 0 && rays == right_rays) continue;
         const std::string why =
@@ -110,7 +99,7 @@ TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
     TileCheck check;
     for (const std::size_t i : sample(tiles.size(), share)) {
         const Rect& tile = tiles[i];
-        const Film<T> again = rendered(*threads, tile).first;
+        const Film<T> again = render_region(*threads, tile).first;
         ++check.tiles;
         if (differing_pixels(again, part_of(film, region, tile)) != 0) ++check.wrong_tiles;
     }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "host/flatten/flat_types.h"
 #include "host/render/film.h"
@@ -48,6 +49,16 @@ class Renderer {
 
     virtual RendererTimes times() const = 0;
 };
+
+/// A region as one tile, and how many rays it took.
+template <typename T>
+std::pair<Film<T>, RayCounts> render_region(Renderer<T>& renderer, const Rect& region) {
+    static const StopFlag never_stopped{0};
+    Film<T> film(region.width, region.height);
+    TileQueue queue({region}, never_stopped);
+    renderer.render(queue, region, film);
+    return {std::move(film), queue.rays()};
+}
 
 /// Traces rays outside a picture, with all features compiled in: one answer per query
 /// (kernels/rays.cl). Throws Error (ExitCode::device) if the device fails. For one thread at a

@@ -224,7 +224,8 @@ class PictureBlame {
         vary();
         const DriverTask task(device_.name);  // vary's checks have ended the last one
         try {
-            const Film<T> right = rendered(*make_threads_renderer<T>(flat_, {}));
+            const auto renderer = make_threads_renderer<T>(flat_, {});
+            const Film<T> right = render_region(*renderer, whole()).first;
             explain(right);
             reproduce(right);
         } catch (const Error& error) {
@@ -243,14 +244,6 @@ class PictureBlame {
     Rect whole() const { return {0, 0, scene_.width, scene_.height}; }
 
     ClOptions options() const { return {.kernels = base_.kernels}; }
-
-    Film<T> rendered(Renderer<T>& renderer) const {
-        Film<T> film(scene_.width, scene_.height);
-        static const StopFlag never_stopped{0};
-        TileQueue queue({whole()}, never_stopped);
-        renderer.render(queue, whole(), film);
-        return film;
-    }
 
     /// Renders with one thing changed at a time, and names what makes the picture right.
     void vary() {
@@ -284,7 +277,8 @@ class PictureBlame {
 
     /// The first pixel that differs from threads', and the first ray of its tree that does.
     void explain(const Film<T>& right) {
-        const Film<T> got = rendered(*make_cl_renderer<T>(flat_, device_, options()));
+        const auto renderer = make_cl_renderer<T>(flat_, device_, options());
+        const Film<T> got = render_region(*renderer, whole()).first;
         const auto [a, b] = std::ranges::mismatch(got.rgb, right.rgb);
         if (a == got.rgb.end()) return;
         const int pixel = static_cast<int>((a - got.rgb.begin()) / 3);

@@ -9,7 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/base/hash.h"
-#include "host/picture/crew.h"
+#include "host/measure/timing.h"
 #include "host/process/stop_signal.h"
 #include "host/record/record.h"
 #include "host/scene/scene_file.h"
@@ -54,11 +54,9 @@ Hashes read_golden(const fs::path& folder) {
 }
 
 RenderSettings golden_settings(const GoldenPicture& picture) {
-    RenderSettings settings;
+    RenderSettings settings = timed_settings();
     settings.precision = picture.precision;
     settings.aa = parse_aa_mode(picture.mode);
-    settings.no_fallback = true;
-    settings.self_test = false;
     return settings;
 }
 
