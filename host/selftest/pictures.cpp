@@ -10,6 +10,7 @@
 #include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/measure/timing.h"
+#include "host/picture/crew.h"
 #include "host/process/stop_signal.h"
 #include "host/record/record.h"
 #include "host/scene/scene_file.h"
