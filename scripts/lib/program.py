@@ -18,6 +18,13 @@ def parser_of(doc):
     return parser
 
 
+def positive(text):
+    """For argparse: a whole number from 1."""
+    if int(text) < 1:
+        raise ValueError
+    return int(text)
+
+
 def run(command, stderr=subprocess.PIPE, **more):
     """What the command, run in ROOT, prints; ends the script where the command fails."""
     result = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=stderr, text=True,
