@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/flatten/flat_scene.h"
 #include "host/picture/crew.h"
+#include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 
 namespace rt::this_file {
@@ -55,6 +57,18 @@ struct Painter : Renderer<float> {
         return times;
     }
 };
+
+TEST(CheckTiles, EndsWhenStopped) {
+    Scene scene = load_default_scene();
+    set_image_size(scene, 40, 30);
+    const Film<float> black(40, 30);
+    const auto check = [&](const StopFlag& stop) {
+        return check_tiles(flatten<float>(scene), "", make_tiles(picture, 10, 10), 1, picture,
+                           black, stop);
+    };
+    EXPECT_EQ(check(never).wrong_tiles, 12u);
+    EXPECT_EQ(check(StopFlag(2)).tiles, 0u);
+}
 
 CrewMember<float> member(const std::string& name, float color, int fails_after = -1,
                          std::chrono::milliseconds pause = {}) {

@@ -150,8 +150,10 @@ int verdict(const RenderedPicture& rendered, const RenderOptions& options,
         return exit_code_of_stop(stop_flag());
     }
     if (non_finite) return static_cast<int>(ExitCode::non_finite);
-    if (!stats.estimate && (options.estimate || options.target_rmse > 0)) {
-        notes.push_back(stop_reason() + " before the picture's error was estimated");
+    const bool unchecked = stop_flag() != 0 && options.check > 0 && stats.tiles_checked == 0;
+    if (unchecked || (!stats.estimate && (options.estimate || options.target_rmse > 0))) {
+        notes.push_back(fmt::format("{} before the picture{}", stop_reason(),
+                                    unchecked ? " was checked" : "'s error was estimated"));
         return exit_code_of_stop(stop_flag());
     }
     if (stats.estimate && stats.estimate->target > 0 &&

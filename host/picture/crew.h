@@ -330,10 +330,10 @@ struct TileCheck {
 };
 
 /// Traces `share` (0 to 1) of the tiles again, at least one, spread over the region that the film
-/// shows, and other ones each time; the tiles lie in it.
+/// shows, and other ones each time, until stopped; the tiles lie in it.
 template <typename T>
 TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
                       const std::vector<Rect>& tiles, double share, const Rect& region,
-                      const Film<T>& film);
+                      const Film<T>& film, const StopFlag& stop);
 
 }  // namespace rt

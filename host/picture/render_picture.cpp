@@ -128,7 +128,7 @@ class Job {
             const bool can_replace = !settings_.no_fallback && has_opencl(devices);
             if (!can_replace || error.exit_code() != ExitCode::device) throw;
             warn_(error.what());
-            return replace(joined_names(devices), crew.shares());
+            return replace(joined_names(devices), crew.shares(), {threads_choice()});
         }
         stats_.shares = crew.shares();
         stats_.device = stats_of(crew, devices);
@@ -144,12 +144,12 @@ class Job {
 
     /// Has threads render what the journal lacks, in place of devices that did these shares. It
     /// lacks everything where the devices may round differently.
-    void replace(const std::string& devices, std::vector<DeviceShare> shares) {
+    void replace(const std::string& devices, std::vector<DeviceShare> shares,
+                 const Devices& threads) {
         warn_("rendering on threads instead");
         settings_.kernels.lanes = 0;  // was for the devices
         if (journal_->has_begun()) settings_.fresh = false;
         film_ = Film<T>(0, 0);  // makes room for the journal's
-        const Devices threads{threads_choice()};
         journal_.emplace(settings_, stats_, *scene_, threads, warn_);
         stats_.resumed = journal_->share_known();
         render_by(threads);
@@ -218,8 +218,8 @@ class Job {
         if (settings_.check <= 0 || (!has_opencl(devices) && stats_.resumed == 0)) return;
         const TileCheck check = check_tiles(*scene_, settings_.kernels.isa,
                                             journal_->shared_tiles(tile_.width, tile_.height),
-                                            settings_.check, region_, film_);
-        stats_.tiles_checked = check.tiles;
+                                            settings_.check, region_, film_, stop_);
+        if (check.wrong_tiles == 0 && stop_ == 0) stats_.tiles_checked = check.tiles;
         if (check.wrong_tiles == 0) return;
         const std::string wrong = fmt::format("{} of {} tiles differ when traced again on threads",
                                               check.wrong_tiles, check.tiles);
@@ -231,8 +231,8 @@ class Job {
         if (settings_.no_fallback) throw Error(ExitCode::device, what);
         warn_(what);
         std::vector<DeviceShare> shares = stats_.shares;
-        if (shares.size() == 1) shares.front().failure = wrong;
-        replace(by, std::move(shares));
+        for (DeviceShare& share : shares) share.failure = wrong;
+        replace(by, std::move(shares), has_opencl(devices) ? Devices{threads_choice()} : devices);
     }
 
     /// Estimates the picture's error, and looks for a mode that reaches the target, on as many
@@ -330,7 +330,7 @@ RenderedPicture render_picture(const Scene& scene, RenderSettings settings,
     const auto same = [&] { return chosen; };
     RenderedPicture second = render_once(finer, settings, same, events, stop, *cache, control);
     if (!second.stats.complete()) return first;
-    second.stats.estimate->seconds += first.stats.estimate->seconds;
+    if (auto& estimate = second.stats.estimate) estimate->seconds += first.stats.estimate->seconds;
     if (const std::string& failed = first.stats.device.fallback_from; !failed.empty()) {
         second.stats.note_failed(failed, first.stats.failure());
     }
@@ -338,7 +338,7 @@ RenderedPicture render_picture(const Scene& scene, RenderSettings settings,
 }
 
 void leave_out_failed(std::vector<DeviceChoice>& devices, const RenderStats& stats) {
-    if (!stats.device.fallback_from.empty()) devices = {threads_choice()};
+    if (!stats.device.fallback_from.empty() && has_opencl(devices)) devices = {threads_choice()};
 }
 
 }  // namespace rt

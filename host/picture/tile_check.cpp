@@ -94,10 +94,11 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
 template <typename T>
 TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
                       const std::vector<Rect>& tiles, double share, const Rect& region,
-                      const Film<T>& film) {
+                      const Film<T>& film, const StopFlag& stop) {
     const auto threads = checking_renderer(scene, isa);
     TileCheck check;
     for (const std::size_t i : sample(tiles.size(), share)) {
+        if (stop != 0) break;
         const Rect& tile = tiles[i];
         const Film<T> again = render_region(*threads, tile).first;
         ++check.tiles;
@@ -111,8 +112,10 @@ template void self_test(Renderer<float>&, const std::string&, const FlatScene<fl
 template void self_test(Renderer<double>&, const std::string&, const FlatScene<double>&,
                         const std::string&);
 template TileCheck check_tiles(const FlatScene<float>&, const std::string&,
-                               const std::vector<Rect>&, double, const Rect&, const Film<float>&);
+                               const std::vector<Rect>&, double, const Rect&, const Film<float>&,
+                               const StopFlag&);
 template TileCheck check_tiles(const FlatScene<double>&, const std::string&,
-                               const std::vector<Rect>&, double, const Rect&, const Film<double>&);
+                               const std::vector<Rect>&, double, const Rect&, const Film<double>&,
+                               const StopFlag&);
 
 }  // namespace rt

@@ -76,6 +76,7 @@ class Wrong(WrongDriver):
         arguments = ["--check", "100%", "--tile", "20"]
         result = self.render(self.CORNERS, 0, *arguments)
         self.assertIn("tiles differ when traced again on threads", result.stderr)
+        self.assertNotIn("tiles_checked", json.loads(result.stdout))
         self.assertEqual(json.loads(result.stdout)["image"]["hash"], self.right_hash())
         self.render(self.CORNERS, 5, "--no-fallback", *arguments)
 
@@ -121,13 +122,14 @@ class Wrong(WrongDriver):
     def test_by_tracing_the_journals_tiles_again(self):
         journal, picture = str(self.folder / "out.png.mbj"), str(self.folder / "out.png")
         right = self.right_hash()
-        for device, code in [("threads", 0), ("pocl", 0)]:
+        for device in ["threads:1", "pocl"]:
             self.hash_of(0, "render", SCENE, "--size", "100", "--shard", "0/1", "-o", journal,
                          "--device", "pocl", shim=self.CORNERS)
-            found, said = self.hash_of(code, "render", SCENE, "--size", "100", "--device", device,
+            found, said = self.hash_of(0, "render", SCENE, "--size", "100", "--device", device,
                                        "-o", picture, "--check", "100%")
             self.assertIn("the journal: ", said)
             self.assertRegex(png_texts(self.folder / "out.png")["mirrorball:FallbackFrom"], "the journal$")
+            self.assertEqual(" on 1 thread, " in said, device == "threads:1")
             self.assertEqual(found, right)
             self.assertFalse(os.path.exists(journal))
 
