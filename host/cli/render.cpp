@@ -120,10 +120,11 @@ int render_isolated(RenderOptions options, const Invocation& call) {
     // What the worker has written with --fresh is resumed.
     if (journal_time(options) != journal_before) options.fresh = false;
     if (options.timeout > 0) options.timeout = std::max(options.timeout - watch.seconds(), 0.001);
-    if (!options.watch && options.aovs.empty()) options.batch_past = end.records;
+    if (!options.watch) options.batch_past = end.records;
     options.failed_device = name;
     options.device_failure = failure;
     options.device = "threads";
+    options.kernels.lanes = 0;  // was for the device
     return render_here(options, call.seconds_before_main + watch.seconds());
 }
 

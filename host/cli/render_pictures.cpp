@@ -41,9 +41,9 @@ namespace {
 std::optional<Picture> load_reference(const RenderOptions& options, const Scene& scene) {
     if (options.reference.empty()) return std::nullopt;
     Picture reference = read_picture(options.reference);
-    const int width = options.crop ? options.crop->width : scene.width;
-    const int height = options.crop ? options.crop->height : scene.height;
-    if (reference.width == width && reference.height == height && reference.channels == 3) {
+    const Rect region = picture_spec(scene, options).region;
+    if (reference.width == region.width && reference.height == region.height &&
+        reference.channels == 3) {
         if (const std::size_t count = count_non_finite(reference); count > 0) {
             const auto [x, y] = first_non_finite(reference);
             throw Error(
@@ -58,7 +58,7 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
                 fmt::format("{}: has {}x{} pixels and {}, but the picture will "
                             "have {}x{} and 3; adjust --size or --crop",
                             options.reference, reference.width, reference.height,
-                            counted(reference.channels, "channel"), width, height));
+                            counted(reference.channels, "channel"), region.width, region.height));
 }
 
 /// Warns that the picture is not saved, unless only figures are wanted. Returns whether it did.
@@ -286,7 +286,7 @@ class Pictures {
             print_warnings(options.scene, scene_warnings(scene_));
         }
         if (!options.output.empty() && !options.shares) {
-            const Rect region = options.crop.value_or(Rect{0, 0, scene_.width, scene_.height});
+            const Rect region = picture_spec(scene_, options).region;
             check_picture_fits(options.output, region.width, region.height, options.format);
         }
     }
@@ -325,9 +325,9 @@ class Pictures {
             print_message(summary_line(stats) + "\n");
         }
         print_notes(notes);
-        report(at, status, results_text(stats, options));
         if (!options.aovs.empty()) scene_.aa = stats.picture.aa;  // which a target chooses
-        if (!write_aovs(scene_, stats, options)) return exit_code_of_stop(stop_flag());
+        if (!write_aovs(scene_, stats, options)) status = exit_code_of_stop(stop_flag());
+        report(at, status, results_text(stats, options));
         return status;
     }
 

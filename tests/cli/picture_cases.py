@@ -5,7 +5,7 @@ import re
 
 import numpy
 
-from harness import GRAY, CliTest
+from harness import GRAY, CliTest, scene_path
 from pictures import png_texts, read_pfm, read_png
 
 SMALL = ["--size", "24x18", "--device", "threads"]
@@ -73,6 +73,12 @@ class Crop(CliTest):
             [], ["--tile", "5x4"], ["--device", "threads", "--schedule", "buffers"],
             ["--device", "threads", "--tile", "7x2"], ["--launch", "sample", "--tile", "3"]]}
         self.assertEqual(len(hashes), 1)
+
+    def test_outside_of_the_picture_is_refused_before_what_follows_from_it(self):
+        self.render("single-sphere", "--size", "8", "-o", "small.png")
+        for more in [["--reference", "small.png"], ["-o", "out.webp"]]:
+            self.assert_refused(self.run_cli("render", scene_path("single-sphere"), "--size", "32", "-q",
+                                             "--crop", "0,0,200000,2", *more), 2, "--crop extends to 200000,2")
 
 
 class Bytes(CliTest):

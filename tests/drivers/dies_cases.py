@@ -93,6 +93,10 @@ class Dies(WrongDriver):
         self.assertIn(b"the driver process was killed by SIGSEGV", picture)
         self.assertIn("was killed by SIGSEGV", self.die("clFinish", "segfault", "--stats").stdout)
 
+    def test_its_width_of_packets_is_not_for_threads(self):
+        stats = json.loads(self.die("clBuildProgram", "abort", "--lanes", "1", "--stats=json", code=0).stdout)
+        self.assertGreater(stats["device"]["lanes"], 1)
+
     def test_late_is_gone_on_with(self):
         """What it had finished is in the journal."""
         picture = str(self.folder / "out.png")
