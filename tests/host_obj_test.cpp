@@ -67,7 +67,8 @@ TEST(ParseObj, FacesThatCannotBeBuiltAreLeftOut) {
 }
 
 TEST(ParseObj, VerticesThatAreNoNumbersOnlyMatterToTheirFaces) {
-    for (const std::string vertex : {"nan 0 0", "0 inf 0", "1e31 0 0", "0 0", "", "a b c"}) {
+    for (const std::string vertex :
+         {"nan 0 0", "0 inf 0", "1e31 0 0", "0 0", "", "a b c", "0 0 -1.#IND00"}) {
         const std::string text =
             square + "v " + vertex + "\nvn " + vertex + "\nvn 0 0 1\nf 1 2 3\n";
         const Model unused = obj(text);

@@ -51,6 +51,16 @@ TEST_F(ReadPicture, TheExtensionTellsTheFormat) {
     }
 }
 
+TEST_F(ReadPicture, RefusesPicturesThatAreStoredUpsideDown) {
+    const std::string start = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+    put(path("down.hdr"), start + "-Y 2 +X 1\n" + std::string(8, '\x7f'));
+    read_picture(path("down.hdr"));
+    put(path("up.hdr"), start + "+Y 2 +X 1\n" + std::string(8, '\x7f'));
+    const auto [code, message] = refusal_of([&] { read_picture(path("up.hdr")); });
+    EXPECT_EQ(code, ExitCode::input);
+    EXPECT_NE(message.find("save it upright"), message.npos) << message;
+}
+
 TEST_F(ReadPicture, AHeaderHasSizeAndMetadata) {
     const PictureMetadata metadata{{"mirrorball:Note", "text"}};
     for (const char* name : {"a.png", "a.exr", "a.pfm", "a.tif", "a.jpg"}) {

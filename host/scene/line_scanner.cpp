@@ -118,7 +118,8 @@ std::optional<double> LineScanner::number(bool may_be_infinite) {
         at_ = start;
         return std::nullopt;
     }
-    if (at_word_end() && (may_be_infinite || std::isfinite(value))) return value;
+    const bool is_windows_nan = at_ != end_ && *at_ == '#' && at_[-1] == '.';  // "-1.#IND"
+    if (at_word_end() && !is_windows_nan && (may_be_infinite || std::isfinite(value))) return value;
     at_ = start;
     return std::nullopt;
 }

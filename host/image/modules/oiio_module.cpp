@@ -128,6 +128,8 @@ PictureFile decode(const std::string& path, const char* format, const CheckSize&
     OIIO::ImageSpec spec;
     if (!input->open(path, spec, config)) fail(input->geterror(), "the header is damaged");
     if (spec.depth > 1 || spec.deep) fail("", "not a flat picture");
+    if (spec.get_int_attribute("Orientation", 1) != 1)
+        fail("", "turned or mirrored; save it upright");
     if (has_huge_tiles(spec)) fail("", "its tiles are much larger than the picture");
     const bool wants_pixels = check(spec.width, spec.height, spec.nchannels);
     PictureFile file{{spec.width, spec.height, spec.nchannels, {}}, {}};
