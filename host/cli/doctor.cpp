@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -64,21 +65,15 @@ void describe(A& a, X& x) {
     a("verdict", x.verdict, "");
 }
 
-/// Throws what rendering throws.
-std::uint64_t hash_of_known_picture(const DeviceChoice& device, Precision precision) {
+/// Empty if the device renders the right picture. Throws what rendering throws.
+std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
     RenderSettings settings = timed_settings();
     settings.size = size;
     settings.precision = precision;
     Scene scene = load_default_scene();
     apply_overrides(scene, settings);
-    return render_quietly(scene, settings, device).stats.image_hash;
-}
-
-/// Empty if the device renders the right picture.
-std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
-    const std::uint64_t hash = hash_of_known_picture(device, precision);
-    const bool is_double = precision == Precision::float64;
-    if (hash == (is_double ? double_hash : float_hash)) return "";
+    const std::uint64_t hash = render_quietly(scene, settings, device).stats.image_hash;
+    if (hash == (precision == Precision::float64 ? double_hash : float_hash)) return "";
     return fmt::format(
         "renders a wrong picture in {} (image {}); clear its kernel cache or update its driver",
         to_string(precision), hash_text(hash));
@@ -155,13 +150,6 @@ Finding test_kernel_cache() {
             "PoCL caches compiled kernels in " + pocl_cache_folder().string()};
 }
 
-void examine_device(const DoctorOptions& options, const ClDevice& device,
-                    const std::string& drivers, std::vector<Finding>& findings) {
-    const std::string name = fmt::format("device {}, {}", device.index, device.name);
-    if (!device.unusable.empty()) return findings.push_back({State::broken, name, device.unusable});
-    findings.push_back(test_in_worker(options, std::to_string(device.index), name, drivers));
-}
-
 /// Of drivers, and of the devices that they list.
 void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings) {
     const Drivers drivers = list_drivers(options.drivers);
@@ -185,7 +173,11 @@ void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings
         findings.push_back({State::broken, "OpenCL", problem});
     }
     for (const ClDevice& device : drivers.devices) {
-        examine_device(options, device, drivers.place, findings);
+        const std::string index = std::to_string(device.index);
+        const std::string name = fmt::format("device {}, {}", index, device.name);
+        findings.push_back(device.unusable.empty()
+                               ? test_in_worker(options, index, name, drivers.place)
+                               : Finding{State::broken, name, device.unusable});
     }
     findings.push_back(test_kernel_cache());
 }
@@ -233,8 +225,7 @@ int run_doctor(const DoctorOptions& options) {
         options.device.empty()
             ? examine(options)
             : std::vector{test_in_worker(options, options.device, options.device, {})};
-    bool is_well = true;
-    for (const Finding& finding : findings) is_well &= finding.state != State::broken;
+    const bool is_well = std::ranges::count(findings, State::broken, &Finding::state) == 0;
     print_result(options.json ? findings_json(findings, is_well)
                               : findings_text(findings, is_well));
     return static_cast<int>(is_well ? ExitCode::done : ExitCode::device);

@@ -46,7 +46,6 @@ int run_selftest(const SelftestOptions& options) {
     const Stopwatch watch;
     Checks checks(options.filters, known_failures(options.expect));
     const std::vector<DeviceChoice> devices = chosen_devices(options.devices);
-    install_stop_signals();
     std::vector<ClDevice> checked;
     for (const DeviceChoice& device : devices) {
         if (!device.use_threads) checked.push_back(device.device);

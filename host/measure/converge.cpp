@@ -101,6 +101,7 @@ std::vector<BuildOffset> build_offsets(const ConvergeResult& result) {
             if (!same_build(point.asked, first.asked)) continue;
             repeats.insert(repeats.end(), point.repeats.begin(), point.repeats.end());
         }
+        if (repeats.empty()) continue;
         const RenderStats& run = first.warm_up.front();
         offsets.push_back({first.asked, spread_of(repeats, open_of).median, build_of(run),
                            spread_of(repeats, build_of)});

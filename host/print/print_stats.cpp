@@ -69,8 +69,7 @@ std::string phases_text(const PhaseStats& phases) {
 std::string rays_text(const RenderStats& stats) {
     return fmt::format(
         "rays\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}   "
-        "{:.2f} "
-        "Mrays/s\n",
+        "{:.2f} Mrays/s\n",
         "primary", stats.rays.primary, "shadow", stats.rays.shadow, "mirror", stats.rays.mirror,
         "transmitted", stats.rays.transmitted, "total", stats.rays.total(),
         stats.rays_per_second() * 1e-6);
@@ -218,7 +217,7 @@ std::string os_name() {
 
 std::string kernel_name() {
     utsname system{};
-    if (uname(&system) != 0) return "unknown";
+    uname(&system);
     return std::string(system.sysname) + " " + system.release + " " + system.machine;
 }
 

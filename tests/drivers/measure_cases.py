@@ -52,8 +52,9 @@ class Converge(WrongDriver):
 
     def test_a_picture_that_is_off_in_a_bit_is_wrong(self):
         self.assertEqual(self.run_with({}, *self.ARGUMENTS).returncode, 0)
-        result = self.run_with(brighter("1.000001"), *self.ARGUMENTS, code=1)
+        result = self.run_with(brighter("1.000001"), *self.ARGUMENTS, "--json", "-", code=1)
         self.assertIn("but threads produce", result.stderr)
+        self.assertEqual(json.loads(result.stdout)["builds"], [])  # none was timed
 
 
 class Stress(WrongDriver):

@@ -133,6 +133,12 @@ class Selftest(WrongDriver):
                 self.assertIn(": WRONG, ", wrong.stdout)
                 self.assertEqual((right.returncode, right.stdout[-8:]), (0, ": right\n"), right.stderr)
 
+    def test_blame_looks_at_its_folder_first(self):
+        taken = self.folder / "taken"
+        taken.write_text("mine")
+        result = self.run_with(self.fault("fma undone"), "blame", "--device", "pocl", "-o", str(taken), code=4)
+        self.assertNotIn("checking functions", result.stderr)
+
     def test_blame_of_a_bit_in_double(self):
         if not ALL:
             self.skipTest("takes minutes; set MIRRORBALL_ALL_FAULTS")
