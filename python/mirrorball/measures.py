@@ -130,6 +130,6 @@ def scene_info(scene: Scene) -> dict[str, Any]:
 
 def options(verb: str) -> list[str]:
     """The keyword arguments that are options of a verb."""
-    found = re.findall(r"--([a-z][a-z-]+)", run([verb, "--help"]))
+    found = re.findall(r"^  (?:-\w,)?--([a-z][a-z-]+)", run([verb, "--help"]), re.M)
     not_here = {"help", *(NOT_HERE if verb == "render" else ())}
     return [name.replace("-", "_") for name in dict.fromkeys(found) if name not in not_here]

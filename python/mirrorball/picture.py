@@ -46,7 +46,7 @@ def write_pfm(path: Union[str, "os.PathLike[str]"], array: numpy.ndarray) -> Non
 def png_of(array: numpy.ndarray) -> bytes:
     """The pixels as an 8-bit PNG: values clamped to 0..1, times 255, rounded, as the program does."""
     height, width, _ = array.shape
-    values = numpy.rint(numpy.clip(array, 0, 1) * numpy.float32(255)).astype(numpy.uint8)
+    values = (numpy.clip(array, 0, 1).astype(float) * 255 + 0.5).astype(numpy.uint8)
     rows = numpy.zeros((height, 1 + 3 * width), numpy.uint8)  # a row begins with its filter, none
     rows[:, 1:] = values.reshape(height, 3 * width)
 

@@ -6,7 +6,6 @@ import json
 import os
 import pathlib
 import shutil
-import signal
 import subprocess
 import sys
 import threading
@@ -54,7 +53,7 @@ def _is_script(path: str) -> bool:
 
 def _word(value: Any) -> str:
     if isinstance(value, (list, tuple)):
-        return ",".join(_word(part) for part in value)
+        return ",".join("x".join(map(str, part)) if isinstance(part, (list, tuple)) else _word(part) for part in value)
     return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
 
 
@@ -76,10 +75,12 @@ def option_words(options: dict[str, Any]) -> list[str]:
 
 
 def _stop(process: subprocess.Popen[str]) -> None:
-    """Asks the program to end, as Ctrl-C does; kills it if it does not."""
+    """Asks the program to end, which has nobody to write to any more; kills it if it does not."""
     if process.poll() is not None:
         return
-    process.send_signal(signal.SIGINT)
+    assert process.stdout is not None
+    process.stdout.close()
+    process.terminate()  # SIGINT is ignored in background jobs
     try:
         process.wait(_SECONDS_TO_STOP)
     except subprocess.TimeoutExpired:
@@ -106,7 +107,7 @@ def _listen(process: subprocess.Popen[str], progress: Optional[Progress], said: 
             progress(fraction)
         except BaseException as error:
             raised.append(error)
-            process.send_signal(signal.SIGINT)
+            process.terminate()
 
 
 def run(words: Iterable[Any], progress: Optional[Progress] = None,

@@ -80,7 +80,7 @@ def verdict_details(study: Study) -> str:
     if any(failed.values()):
         right = (f"Of {len(rows) + len(points)} combinations, {failed['wrong']} gave a wrong picture and "
                  f"{failed['failed']} failed.")
-    best = min(study.largest(), key=trace_seconds, default=None)
+    best = min(filter(None, _versus(study)), key=trace_seconds, default=None)
     if best is None:
         return right
     figures = best["figures"]

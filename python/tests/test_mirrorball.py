@@ -51,6 +51,11 @@ def test_a_path_gives_the_hash_that_the_command_line_gives():
 
 
 def test_saved_pngs_have_the_programs_pixels(tmp_path):
+    light = mirrorball.render({"camera": {"from": [0, 0, 1], "at": [0, 0, 0], "fov_degrees": 60}, "background": [0.9] * 3},
+                              size=2)
+    (tmp_path / "shown.png").write_bytes(light._repr_png_())
+    light.save(tmp_path / "light.png")
+    assert mirrorball.compare(tmp_path / "shown.png", tmp_path / "light.png")["identical"]
     picture = mirrorball.render(PAPER, **SMALL)
     picture.save(tmp_path / "ours.png")
     subprocess.run([mirrorball.find_program(), "render", PAPER, "--device", "threads:1", "--size",
@@ -153,6 +158,18 @@ def test_an_interrupt_stops_the_program(tmp_path, monkeypatch):
         os.kill(int(pid.read_text()), 0)
 
 
+def test_an_interrupted_program_may_end_though_nobody_reads_what_it_prints(tmp_path, monkeypatch):
+    prints, ended = tmp_path / "prints", tmp_path / "ended"
+    prints.write_text(f"#!/bin/sh\ntrap 'head -c 200000 /dev/zero; touch {ended}; exit' TERM INT\n"
+                      "echo '{\"fraction\": 0}' >&2\nwhile :; do sleep 0.1; done\n")
+    prints.chmod(prints.stat().st_mode | stat.S_IXUSR)
+    monkeypatch.setenv("MIRRORBALL", str(prints))
+
+    with pytest.raises(KeyboardInterrupt):
+        mirrorball.render(PAPER, progress=lambda _: os.kill(os.getpid(), signal.SIGINT))
+    assert ended.exists()
+
+
 def test_what_progress_raises_stops_the_program():
     def fail(_):
         raise KeyError("enough")
@@ -179,6 +196,9 @@ def test_bench_gives_flat_rows():
     rows = mirrorball.bench(PAPER, sizes=[16, 24], aa="none", devices=["threads:1"], schedules="tiles",
                             repeats=1)
     assert {row["width"] for row in rows} == {16, 24}
+    rows = mirrorball.bench(PAPER, sizes=[(20, 10)], aa="none", devices=["threads:1"], schedules="tiles",
+                            repeats=1)
+    assert [(row["width"], row["height"]) for row in rows if row["precision"] == "float"] == [(20, 10)]
     assert all(row["verdict"] == "right" for row in rows)
     assert all(row["figures.trace.median"] > 0 for row in rows)
     assert not any(isinstance(value, (dict, list)) for row in rows for value in row.values())
@@ -197,6 +217,7 @@ def test_devices_and_options_are_lists():
     assert isinstance(mirrorball.devices(), list)
     options = mirrorball.options("render")
     assert "max_bounces" in options
+    assert not {"device", "format"} & set(mirrorball.options("bench"))
     assert not {"help", "output", "batch"} & set(options)  # render() takes none of them
 
 
