@@ -19,6 +19,7 @@
 #include "host/measure/timing.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/pocl.h"
+#include "host/picture/render_picture.h"
 #include "host/print/print_stats.h"
 #include "host/process/drivers.h"
 #include "host/record/record.h"
@@ -42,9 +43,6 @@ struct DoctorOptions {
 /// The paper's scene at 100 x 100, as every correct device renders it (tests/cli/doctor_cases.py).
 constexpr PictureSize size{100, 100};
 constexpr std::uint64_t float_hash = 0x303e5fab0252b3bc, double_hash = 0x77e0bc0cd7798ce4;
-
-/// Time limit of a device test, in deadlines.
-constexpr double longest_test = 10;
 
 enum class State { fine, missing, broken };
 
@@ -72,7 +70,10 @@ std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
     settings.precision = precision;
     Scene scene = load_default_scene();
     apply_overrides(scene, settings);
-    const std::uint64_t hash = render_quietly(scene, settings, device).stats.image_hash;
+    static const StopFlag never_stopped{0};
+    const auto devices = [&] { return std::vector{device}; };
+    const std::uint64_t hash =
+        render_picture(scene, settings, devices, {}, never_stopped).stats.image_hash;
     if (hash == (precision == Precision::float64 ? double_hash : float_hash)) return "";
     return fmt::format(
         "renders a wrong picture in {} (image {}); clear its kernel cache or update its driver",
@@ -101,7 +102,7 @@ Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
     if (!cl_options.empty()) command.push_back("--cl-options=" + cl_options);
     if (!folder.empty()) command.push_back("--save-kernels=" + folder);
     const WorkerEnd end =
-        run_worker({command, drivers, options.deadline, 0, longest_test * options.deadline});
+        run_worker({command, drivers, options.deadline, 0, 10 * options.deadline});
     end_if_stopped(end);
     Finding finding{State::broken, name, ""};
     if (!end.is_regular) {

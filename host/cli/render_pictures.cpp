@@ -41,9 +41,8 @@ namespace {
 std::optional<Picture> load_reference(const RenderOptions& options, const Scene& scene) {
     if (options.reference.empty()) return std::nullopt;
     Picture reference = read_picture(options.reference);
-    const Rect region = picture_spec(scene, options).region;
-    if (reference.width == region.width && reference.height == region.height &&
-        reference.channels == 3) {
+    const auto [left, top, width, height] = picture_spec(scene, options).region;
+    if (reference.width == width && reference.height == height && reference.channels == 3) {
         if (const std::size_t count = count_non_finite(reference); count > 0) {
             const auto [x, y] = first_non_finite(reference);
             throw Error(
@@ -58,7 +57,7 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
                 fmt::format("{}: has {}x{} pixels and {}, but the picture will "
                             "have {}x{} and 3; adjust --size or --crop",
                             options.reference, reference.width, reference.height,
-                            counted(reference.channels, "channel"), region.width, region.height));
+                            counted(reference.channels, "channel"), width, height));
 }
 
 /// Warns that the picture is not saved, unless only figures are wanted. Returns whether it did.
