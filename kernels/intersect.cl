@@ -202,7 +202,7 @@ Reals plane_distance(const RayShear* shear, __global const Triangle* triangle) {
     real3 o = shear->origin;
     Reals height = triangle->plane - fma(n.z, o.z, fma(n.y, o.y, n.x * o.x));
     Reals slope = fma(n.x, shear->sx, fma(n.y, shear->sy, n.z));
-    Reals error = (Real)RT_ROUNDOFF * (fabs(o.x) + fabs(o.y) + fabs(o.z));
+    Reals error = (Real)(2 * RT_ROUNDOFF) * (fabs(n.x * o.x) + fabs(n.y * o.y) + fabs(n.z * o.z));
     return fabs(height) <= error ? (Reals)0 : height * shear->sz / slope;
 }
 

@@ -177,6 +177,24 @@ TYPED_TEST(Touching, SheetsInOnePlaceAreCrossedByGrazingRays) {
     }
 }
 
+TYPED_TEST(Touching, SheetsOnALevelFloorAreCrossedBelowLowEyes) {
+    for (const double height : {1.0, 0.2, 0.05}) {
+        Scene scene = front_view();
+        scene.camera.projection = Scene::Projection::perspective;
+        scene.camera.from = {0.3, height, 10};
+        scene.camera.field_of_view.amount = 0.05 * height;
+        scene.ambient_light = scene.background = glm::dvec3(1);
+        scene.materials = {glass(0.9, 1), matte(0.5, 0)};
+        for (const int material : {0, 1}) {
+            const double half = material == 0 ? 4 : 40;
+            add_quad(scene,
+                     {{{-half, 0, half}, {half, 0, half}, {half, 0, -half}, {-half, 0, -half}}},
+                     material);
+        }
+        expect_square<TypeParam>(scene, 1, [](const auto&) { return 0.9 * 0.5; });
+    }
+}
+
 TYPED_TEST(Touching, GlassStandsOnAFloor) {
     for (const bool is_floor_first : {false, true}) {
         Scene scene = front_view();
