@@ -9,7 +9,7 @@ SOURCES = pathlib.Path(__file__).resolve().parent
 COMPILER = ["g++", "-std=c++20", "-O3", "-march=native", "-mprefer-vector-width=512",
             "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-Wall", "-Wextra",
             "-Wno-maybe-uninitialized", "-Wno-psabi"]
-LIBRARIES = ["threads", "scene", "base"]
+LIBRARIES = ["threads", "scene", "base", "native", "texts"]
 
 
 def is_installed():
