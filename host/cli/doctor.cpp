@@ -70,7 +70,7 @@ std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
     settings.precision = precision;
     Scene scene = load_default_scene();
     apply_overrides(scene, settings);
-    static const StopFlag never_stopped{0};
+    static const StopFlag never_stopped{0};  // a stop signal ends this process at once
     const auto devices = [&] { return std::vector{device}; };
     const std::uint64_t hash =
         render_picture(scene, settings, devices, {}, never_stopped).stats.image_hash;
