@@ -60,17 +60,15 @@ def _word(value: Any) -> str:
 def option_words(options: dict[str, Any]) -> list[str]:
     """The command line's words for keyword arguments: `max_bounces=4` is `--max-bounces 4`.
 
-    None and False leave an option out, True gives a flag; a list is written with commas.
+    None and False leave an option out, True gives a flag; a list is written with commas, a size in it with x.
     """
     words = []
     for name, value in options.items():
         if value is None or value is False:
             continue
         words.append("--" + name.replace("_", "-"))
-        if name == "size" and isinstance(value, (list, tuple)):
-            words.append("x".join(str(part) for part in value))
-        elif value is not True:
-            words.append(_word(value))
+        if value is not True:
+            words.append(_word([value] if name == "size" else value))
     return words
 
 

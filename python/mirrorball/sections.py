@@ -22,13 +22,17 @@ _ERROR_SCALE = .25  # the difference at the top of the error maps' colors
 
 # The verdict
 
+def _fastest(*rows: Optional[Json]) -> Optional[Json]:
+    return min(filter(None, rows), key=trace_seconds, default=None)
+
+
 def _versus(study: Study) -> tuple[Optional[Json], Optional[Json]]:
     """The fastest OpenCL device's row of the largest picture, and that of the most threads."""
     rows = study.largest()
     most = max((row["threads"] for row in rows), default=0)
 
     def fastest(threads: int) -> Optional[Json]:
-        return min((row for row in rows if row["threads"] == threads), key=trace_seconds, default=None)
+        return _fastest(*(row for row in rows if row["threads"] == threads))
     return fastest(0), fastest(most) if most else None
 
 
@@ -39,7 +43,7 @@ def _times(ratio: float) -> str:
 def verdict(study: Study) -> str:
     """PoCL traces cornell-box in 22 ms: 1.2 times as fast as 2 threads. Empty if no row is right."""
     device, threads = _versus(study)
-    best = min((row for row in (device, threads) if row), key=trace_seconds, default=None)
+    best = _fastest(device, threads)
     if best is None:
         return ""
     said = (f"{renderer_name(best)} {'trace' if best['threads'] > 1 else 'traces'} {study.name} in "
@@ -80,7 +84,7 @@ def verdict_details(study: Study) -> str:
     if any(failed.values()):
         right = (f"Of {len(rows) + len(points)} combinations, {failed['wrong']} gave a wrong picture and "
                  f"{failed['failed']} failed.")
-    best = min(filter(None, _versus(study)), key=trace_seconds, default=None)
+    best = _fastest(*_versus(study))
     if best is None:
         return right
     figures = best["figures"]
@@ -91,7 +95,7 @@ def verdict_details(study: Study) -> str:
 
 
 def glance(study: Study) -> str:
-    best = min(study.largest(), key=trace_seconds, default=None)
+    best = _fastest(*study.largest())
     if best is None:
         return ""
     figures, source, on = best["figures"], study.source(best), f"on {renderer_name(best)}"
