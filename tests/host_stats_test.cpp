@@ -41,7 +41,7 @@ TEST(ShortDeviceName, OfPoclIsItsOwn) {
 
 TEST(StatsText, CountsInWords) {
     RenderStats stats;
-    stats.scene.spheres = stats.scene.lights = 1;
+    stats.scene.flatten.spheres.count = stats.scene.lights = 1;
     EXPECT_TRUE(holds(holdings_text(stats.scene), "1 sphere, 0 cones, 0 triangles, 1 light"));
     stats.device.fallback_from = "a device";
     EXPECT_TRUE(holds(stats_text(stats), "instead of a device, which failed"));

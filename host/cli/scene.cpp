@@ -34,34 +34,33 @@ Json bounds_json(const Scene& scene) {
 }
 
 Json info_json(const std::string& path, const Scene& scene, const FlatScene<float>& flat) {
-    return {{"format", "mirrorball-scene-info"},
-            {"version", 1},
-            {"path", printable(path)},
-            {"name", scene.name},
-            {"hash", hash_text(scene_hash(scene))},
-            {"width", scene.width},
-            {"height", scene.height},
-            {"aa", to_string(scene.aa)},
-            {"max_bounces", scene.max_bounces},
-            {"spheres", scene.spheres.size()},
-            {"cones", scene.cones.size()},
-            {"triangles", flat.triangles.size()},
-            {"smooth_triangles", flat.vertex_normals.size()},
-            {"meshes", scene.meshes.size()},
-            {"mesh_triangles", triangle_count(scene) - scene.triangles.size()},
-            {"lights", scene.lights.size()},
-            {"lights_used", flat.lights.size()},
-            {"materials", scene.materials.size()},
-            {"bounds", bounds_json(scene)},
-            {"flat_bytes", flat.bytes()},
-            {"hierarchies", json_of(hierarchies_of(flat.stats))},
-            {"hierarchy_seconds", flat.stats.bvh_seconds},
-            {"shadow_casters", flat.stats.casters},
-            {"lit_triangles", flat.stats.lit_triangles},
-            {"features_used", names_of(flat.features, true)},
-            {"features_left_out", names_of(flat.features, false)},
-            {"notes", scene.notes},
-            {"warnings", scene_warnings(scene)}};
+    Json json = {{"format", "mirrorball-scene-info"},
+                 {"version", 1},
+                 {"path", printable(path)},
+                 {"name", scene.name},
+                 {"hash", hash_text(scene_hash(scene))},
+                 {"width", scene.width},
+                 {"height", scene.height},
+                 {"aa", to_string(scene.aa)},
+                 {"max_bounces", scene.max_bounces}};
+    for (const KindStats& kind : flat.stats.kinds()) json[kind.many] = kind.count;
+    json.update({{"smooth_triangles", flat.vertex_normals.size()},
+                 {"meshes", scene.meshes.size()},
+                 {"mesh_triangles", triangle_count(scene) - scene.triangles.size()},
+                 {"lights", scene.lights.size()},
+                 {"lights_used", flat.lights.size()},
+                 {"materials", scene.materials.size()},
+                 {"bounds", bounds_json(scene)},
+                 {"flat_bytes", flat.bytes()},
+                 {"hierarchies", json_of(hierarchies_of(flat.stats))},
+                 {"hierarchy_seconds", flat.stats.bvh_seconds},
+                 {"shadow_casters", flat.stats.casters},
+                 {"lit_triangles", flat.stats.lit_triangles},
+                 {"features_used", names_of(flat.features, true)},
+                 {"features_left_out", names_of(flat.features, false)},
+                 {"notes", scene.notes},
+                 {"warnings", scene_warnings(scene)}});
+    return json;
 }
 
 std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
@@ -69,12 +68,11 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         "{}\n"
         "  hash       {}\n"
         "  picture    {}x{} pixels, {}, up to {}\n"
-        "  contains   {}, {}, {} ({} smooth), {}, {}\n"
+        "  contains   {} ({} smooth), {}, {}\n"
         "  on device  {} bytes in float\n",
         scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
         counted(static_cast<std::size_t>(scene.max_bounces), "mirror bounce"),
-        counted(scene.spheres.size(), "sphere"), counted(scene.cones.size(), "cone"),
-        counted(flat.triangles.size(), "triangle"), flat.vertex_normals.size(),
+        kinds_text(flat.stats), flat.vertex_normals.size(),
         counted(scene.materials.size(), "material"), counted(scene.lights.size(), "light"),
         flat.bytes());
     if (!flat.triangles.empty()) {

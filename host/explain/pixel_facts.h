@@ -14,8 +14,7 @@ namespace rt {
 struct PixelHits {
     std::vector<float> depth;   ///< distance along the eye ray, in scene units; 0: nothing
     std::vector<float> normal;  ///< of unit length, on the side that lights see; three numbers each
-    std::vector<std::int32_t> id;  ///< of the primitive, from 1: spheres, cones, triangles as the
-                                   ///< scene lists them; 0: nothing
+    std::vector<std::int32_t> id;  ///< of the primitive, from 1 (number_in_scene); 0: nothing
 };
 
 /// For the pixels of a region; for some of them if the stop flag is set.

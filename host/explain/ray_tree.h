@@ -27,7 +27,7 @@ struct ExplainedPixel {
 /// as in a picture.
 ExplainedPixel explain_pixel(const FlatScene<double>& scene, int x, int y);
 
-/// The scene's number of a primitive of its flat scene: spheres, then cones, then triangles.
+/// The scene's number of a primitive of its flat scene, kind by kind as the scene lists them.
 template <typename T>
 std::size_t number_in_scene(const FlatScene<T>& flat, std::int64_t prim) {
     const auto number = static_cast<std::size_t>(prim);

@@ -40,9 +40,9 @@ class Flattener {
 
     FlatScene<T> run() {
         flat_.params = flatten_params<T>(view_, scene_);
-        const Kind spheres{&Params::sphere_root, &FlattenStats::spheres};
+        const Kind spheres{flat_.params.sphere_root, flat_.stats.spheres};
         spheres_order_ = flatten_kind(spheres, scene_.spheres, flatten_sphere<T>, flat_.spheres);
-        const Kind cones{&Params::cone_root, &FlattenStats::cones};
+        const Kind cones{flat_.params.cone_root, flat_.stats.cones};
         cones_order_ = flatten_kind(cones, scene_.cones, flatten_cone<T>, flat_.cones);
         flatten_triangles();
         for (const auto& material : scene_.materials) {
@@ -66,8 +66,8 @@ class Flattener {
 
     /// One kind of primitive.
     struct Kind {
-        Index Params::*root;
-        BvhShape FlattenStats::*shape;
+        Index& root;
+        KindStats& stats;
     };
 
     /// Primitives and nodes (fewer than two a primitive) are numbered in a 32-bit Index.
@@ -110,6 +110,7 @@ class Flattener {
     /// enough.
     template <typename Box>
     Order add_hierarchy(const Kind& kind, std::size_t count, const Box& box) {
+        kind.stats.count = count;
         std::size_t crossover = bvh_crossover;
         if (options_.hierarchies.has_value()) crossover = *options_.hierarchies ? 2 : count + 1;
         if (count < crossover) return {};
@@ -120,10 +121,9 @@ class Flattener {
             boxes[i] = box(i);
             boxes[i].first = static_cast<Index>(i);
         });
-        const Index root = build_bvh<T>(boxes, options_.threads, flat_.nodes);
-        flat_.params.*kind.root = root;
+        kind.root = build_bvh<T>(boxes, options_.threads, flat_.nodes);
         for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
-        flat_.stats.*kind.shape = shape_of<T>(flat_.nodes, root);
+        kind.stats.hierarchy = shape_of<T>(flat_.nodes, kind.root);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         flat_.stats.bvh_seconds += taken.count();
         return order;
@@ -166,7 +166,7 @@ class Flattener {
     /// leaf order: memory never holds them twice, nor along with the boxes.
     void flatten_triangles() {
         const auto count = static_cast<std::size_t>(triangles_.size());
-        const Kind kind{&Params::triangle_root, &FlattenStats::triangles};
+        const Kind kind{flat_.params.triangle_root, flat_.stats.triangles};
         triangles_order_ = add_hierarchy(kind, count, [&](std::size_t i) {
             const TriangleList::Corners corners = triangles_.corners(i);
             return box_of<T>(pack_position<T>(view_, corners[0]),

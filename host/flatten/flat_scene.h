@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,12 +17,22 @@ namespace rt {
 /// A kind with fewer primitives than this has no hierarchy: a ray tests each of them.
 inline constexpr std::size_t bvh_crossover = 24;
 
-/// What flatten built over the primitives; all 0 for a kind without a hierarchy.
+/// The primitives of one kind, and the hierarchy over them; all 0 if there is none.
+struct KindStats {
+    const char *one = "", *many = "";  ///< "sphere", "spheres"
+    std::size_t count = 0;
+    BvhShape hierarchy{};
+};
+
+/// What flatten built.
 struct FlattenStats {
-    BvhShape spheres, cones, triangles;
+    KindStats spheres{"sphere", "spheres"}, cones{"cone", "cones"},
+        triangles{"triangle", "triangles"};  ///< those of meshes included
     double bvh_seconds = 0;
     std::uint64_t casters = 0;        ///< pairs of a light and a triangle that may cast its shadow
     std::uint64_t lit_triangles = 0;  ///< all pairs of a light and a triangle
+
+    std::array<KindStats, 3> kinds() const { return {spheres, cones, triangles}; }
 };
 
 /// A scene as arrays of shared structs in the renderer's frame, in the precision of T (float or

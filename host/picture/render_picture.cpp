@@ -27,8 +27,6 @@ SceneStats scene_stats(const Scene& scene) {
     SceneStats stats;
     stats.name = scene.name;
     stats.hash = scene_hash(scene);
-    stats.spheres = scene.spheres.size();
-    stats.cones = scene.cones.size();
     stats.lights = scene.lights.size();
     stats.materials = scene.materials.size();
     return stats;
@@ -73,7 +71,6 @@ class Job {
         stats_.scene = figures.get();
         maker_.emplace(
             CrewMaker<T>{scene_, settings_, picture_.aa, cache.devices, events.driver_loaded});
-        stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
         stats_.scene.flatten = scene_->stats;

@@ -78,34 +78,28 @@ void describe(A& a, X& x) {
 
 /// What was rendered.
 struct SceneStats : SceneId {
-    std::size_t spheres = 0, cones = 0, triangles = 0, smooth_triangles = 0, lights = 0,
-                materials = 0;
+    std::size_t smooth_triangles = 0, lights = 0, materials = 0;
     std::size_t bytes = 0;  ///< flattened
     FlattenStats flatten;
     Features features;  ///< what it needs of the kernels
     Features compiled;  ///< that, and what was compiled in although it is not needed
 };
 
-/// The hierarchy over one kind of primitive.
-struct HierarchyStats {
-    std::string over;  ///< "spheres"
-    BvhShape shape;
-};
-
-template <typename A, Of<HierarchyStats> X>
+template <typename A, Of<KindStats> X>
 void describe(A& a, X& x) {
-    a("over", x.over, "a kind of primitive");
-    a("nodes", x.shape.nodes, "");
-    a("leaves", x.shape.leaves, "");
-    a("depth", x.shape.depth, "levels");
-    a("sah_cost", x.shape.sah_cost, "by the surface area heuristic");
+    a("over", x.many, "a kind of primitive");
+    a("nodes", x.hierarchy.nodes, "");
+    a("leaves", x.hierarchy.leaves, "");
+    a("depth", x.hierarchy.depth, "levels");
+    a("sah_cost", x.hierarchy.sah_cost, "by the surface area heuristic");
 }
 
-/// Of the kinds that have one.
-inline std::vector<HierarchyStats> hierarchies_of(const FlattenStats& stats) {
-    std::vector<HierarchyStats> list{
-        {"spheres", stats.spheres}, {"cones", stats.cones}, {"triangles", stats.triangles}};
-    std::erase_if(list, [](const HierarchyStats& one) { return one.shape.nodes == 0; });
+/// The kinds that have a hierarchy.
+inline std::vector<KindStats> hierarchies_of(const FlattenStats& stats) {
+    std::vector<KindStats> list;
+    for (const KindStats& kind : stats.kinds()) {
+        if (kind.hierarchy.nodes > 0) list.push_back(kind);
+    }
     return list;
 }
 
@@ -113,9 +107,9 @@ template <typename A, Of<SceneStats> X>
 void describe(A& a, X& x) {
     const SceneId& id = x;
     describe(a, id);
-    a("spheres", x.spheres, "");
-    a("cones", x.cones, "");
-    a("triangles", x.triangles, "those of meshes included");
+    for (const KindStats& kind : x.flatten.kinds()) {
+        a(kind.many, kind.count, "those of meshes included");
+    }
     a("smooth_triangles", x.smooth_triangles, "those with vertex normals");
     a("lights", x.lights, "");
     a("materials", x.materials, "");

@@ -87,19 +87,23 @@ std::string names_text(const Features& features, bool used) {
     return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string kinds_text(const FlattenStats& stats) {
+    std::vector<std::string> counts;
+    for (const KindStats& kind : stats.kinds()) counts.push_back(counted(kind.count, kind.one));
+    return fmt::format("{}", fmt::join(counts, ", "));
+}
+
 std::string holdings_text(const SceneStats& scene) {
-    return fmt::format("{}, {}, {}, {}{}{}", counted(scene.spheres, "sphere"),
-                       counted(scene.cones, "cone"), counted(scene.triangles, "triangle"),
-                       counted(scene.lights, "light"),
+    return fmt::format("{}, {}{}{}", kinds_text(scene.flatten), counted(scene.lights, "light"),
                        scene.features[feature::mirrors] ? ", mirrors" : "",
                        scene.features[feature::glass] ? ", glass" : "");
 }
 
 std::string flatten_text(const FlattenStats& stats) {
     std::string built;
-    for (const HierarchyStats& one : hierarchies_of(stats)) {
-        built += fmt::format("{}{} ({} nodes, {} deep)", built.empty() ? "" : ", ", one.over,
-                             one.shape.nodes, one.shape.depth);
+    for (const KindStats& kind : hierarchies_of(stats)) {
+        built += fmt::format("{}{} ({} nodes, {} deep)", built.empty() ? "" : ", ", kind.many,
+                             kind.hierarchy.nodes, kind.hierarchy.depth);
     }
     built = built.empty() ? "none" : fmt::format("{}, built in {:.3f} s", built, stats.bvh_seconds);
     return fmt::format("BVH: {}\nshadow casters: {} of {} light-triangle pairs\n", built,

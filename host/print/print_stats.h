@@ -9,10 +9,13 @@
 
 namespace rt {
 
-/// "spheres, cones", the switches that are on (used) or off; "nothing" when there are none.
+/// "spheres, glass", the switches that are on (used) or off; "nothing" when there are none.
 std::string names_text(const Features& features, bool used);
 
-/// "4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass": what the scene holds.
+/// "4 spheres, ..., 128 triangles".
+std::string kinds_text(const FlattenStats& stats);
+
+/// "4 spheres, ..., 128 triangles, 2 lights, mirrors, glass": what the scene holds.
 std::string holdings_text(const SceneStats& scene);
 
 /// What flatten built: "BVH: triangles (1059607 nodes, 23 deep), built in 0.330 s", and how many
