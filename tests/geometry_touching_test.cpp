@@ -218,6 +218,14 @@ TYPED_TEST(Touching, ALightNearAHugeBallDoesNotShineThroughIt) {
     scene.spheres.push_back({{2 - 1e6, 0, 0}, 1e6, 0});
     add_quad(scene, {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0);
     expect_square<TypeParam>(scene, 1, [](const auto&) { return 0; });
+    scene.triangles.clear();  // nor onto its far side
+    scene.materials[0].two_sided = true;
+    scene.camera.projection = Scene::Projection::perspective;
+    scene.spheres[0].center = {0, 0, 7 - 1e6};
+    for (const double height : {0.01, 1.0, 4.0}) {
+        scene.lights[0].position = {0, 0, 7 + height};
+        expect_square<TypeParam>(scene, 1, [](const auto&) { return 0; });
+    }
 }
 
 TYPED_TEST(Touching, ARingWithoutHeightIsARing) {

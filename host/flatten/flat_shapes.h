@@ -110,10 +110,7 @@ int side_of_sphere(const ViewFrame& view, const Scene::Sphere& sphere, const glm
     const double radius = sphere.radius * view.scale;
     const double gap = glm::length(sphere.center - point) * view.scale - radius;
     const double slack = contact(radius) + difference_error(view, sphere.center, point);
-    const double distance = glm::length(view.to_view(sphere.center));
-    // Where a huge sphere is near the eye, so are the numbers that are rounded.
-    const double size =
-        is_huge(radius, distance) ? glm::length(view.to_view(point)) : radius + distance;
+    const double size = radius + glm::length(view.to_view(sphere.center));
     return side_of(gap, slack, ulps * static_cast<double>(Flat<T>::roundoff) * size);
 }
 
@@ -146,7 +143,10 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
     flat.radius = static_cast<T>(radius);
     flat.is_huge = is_huge(radius, distance) ? 1 : 0;
     flat.power = static_cast<T>((distance - radius) * (distance + radius));
-    if (view.is_perspective) flat.touches = side_of_sphere<T>(view, sphere, view.eye, eye_ulps);
+    if (view.is_perspective) {  // rounding does not move an eye next to a huge sphere
+        const double ulps = flat.is_huge != 0 ? 0 : eye_ulps;
+        flat.touches = side_of_sphere<T>(view, sphere, view.eye, ulps);
+    }
     flat.material = sphere.material;
     return flat;
 }
