@@ -122,7 +122,8 @@ TEST_F(WritePicture, SrgbBytesAreThoseOfTheCurve) {
     picture.width = static_cast<int>(picture.pixels.size());
     const std::vector<std::uint8_t> bytes = encode_8bit(picture, Encoding::srgb);
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-        ASSERT_EQ(bytes[i], encode_8bit(picture.pixels[i], Encoding::srgb)) << picture.pixels[i];
+        const double stored = srgb_from_linear(picture.pixels[i]);
+        ASSERT_EQ(bytes[i], static_cast<int>(stored * 255 + 0.5)) << picture.pixels[i];
     }
 }
 
@@ -131,13 +132,6 @@ TEST_F(WritePicture, PngKeepsRowsAndChannelsInPlace) {
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = i / 255.0f;
     write_picture(path("a.png"), picture, Encoding::display);
     EXPECT_EQ(bits(read_picture(path("a.png"))), bits(picture));
-}
-
-TEST_F(WritePicture, PngAlphaIsNeitherCurvedNorMultiplied) {
-    const Picture picture{1, 1, 4, {1.0f, 0.5f, 0.0f, 0.5f}};
-    write_picture(path("a.png"), picture, Encoding::srgb);
-    const Picture back = read_picture(path("a.png"));
-    EXPECT_EQ(back.pixels, (std::vector<float>{1.0f, 188 / 255.0f, 0.0f, 128 / 255.0f}));
 }
 
 TEST_F(WritePicture, SamePictureGivesTheSameBytes) {
@@ -176,17 +170,6 @@ TEST_F(WritePicture, NamesWithSpacesAndUmlautsWork) {
     const std::string name = path("zwei B\xc3\xa4lle #1 %04d.exr");
     write_picture(name, ramp_picture(2, 2), Encoding::display);
     EXPECT_EQ(read_picture(name).width, 2);
-}
-
-TEST_F(WritePicture, ManyChannelsNeedNames) {
-    Picture picture{1, 1, 5, std::vector<float>(5)};
-    for (const char* name : {"a.png", "a.exr", "a.tif"}) {
-        const auto refusal =
-            refusal_of([&] { write_picture(path(name), picture, Encoding::display); });
-        EXPECT_EQ(refusal.exit_code, ExitCode::output) << name;
-    }
-    picture.channel_names = {"a", "b", "c", "d", "e"};
-    write_picture(path("a.exr"), picture, Encoding::display);
 }
 
 TEST_F(WritePicture, MetadataSurvivesInPngAndExr) {

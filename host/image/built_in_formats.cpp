@@ -112,11 +112,6 @@ Header read_header(const std::string& path, std::istream& stream) {
 }  // namespace
 
 void write_pfm(const std::string& path, const Picture& picture) {
-    if (picture.channels != 1 && picture.channels != 3) {
-        throw Error(ExitCode::output,
-                    fmt::format("{}: PFM stores 1 or 3 channels, not {}; use .exr", path,
-                                picture.channels));
-    }
     const std::string header = fmt::format("{}\n{} {}\n-1.0\n", picture.channels == 3 ? "PF" : "Pf",
                                            picture.width, picture.height);
     const auto row = static_cast<std::size_t>(picture.width) * picture.channels;
@@ -170,12 +165,6 @@ void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
     auto& file = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
     const auto more = std::as_bytes(std::span(bytes, count));
     file.insert(file.end(), more.begin(), more.end());
-}
-
-int color_type(int channels) {
-    constexpr int types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
-                             PNG_COLOR_TYPE_RGB_ALPHA};
-    return types[channels - 1];
 }
 
 void declare_encoding(png_structp png, png_infop info, Encoding encoding) {
@@ -341,7 +330,8 @@ std::vector<std::byte> encode_png_file(
     std::vector<std::byte> file;
     png_set_write_fn(writer.png, &file, append_bytes, flush_nothing);
     png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(picture.width),
-                 static_cast<png_uint_32>(picture.height), 8, color_type(picture.channels),
+                 static_cast<png_uint_32>(picture.height), 8,
+                 picture.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     choose_compression(writer.png);
     declare_encoding(writer.png, writer.info, encoding);
@@ -353,7 +343,7 @@ std::vector<std::byte> encode_png_file(
     png_write_info(writer.png, writer.info);
     std::vector<std::uint8_t> row(static_cast<std::size_t>(picture.width) * picture.channels);
     for (int y = 0; y < picture.height; ++y) {
-        encode_8bit_row(picture, y, encoding, row);
+        encode_8bit(std::span(picture.pixels).subspan(row.size() * y, row.size()), encoding, row);
         png_write_row(writer.png, row.data());
     }
     png_write_end(writer.png, nullptr);

@@ -40,7 +40,7 @@ void check_picture_memory(const std::string& path, int width, int height, int ch
 
 // PNG and PFM, which need no module.
 
-/// The picture as a PNG file of 8 bits a channel, 1 to 4 channels; the metadata as text chunks
+/// The picture as a PNG file of 8 bits a channel, 1 or 3 channels; the metadata as text chunks
 /// (texts are UTF-8). Throws Error(ExitCode::output) naming `path`.
 std::vector<std::byte> encode_png_file(
     const std::string& path, const Picture& picture, Encoding encoding,

@@ -57,47 +57,23 @@ const SrgbTable& srgb_table() {
 }
 
 template <typename Curve>
-std::uint8_t encode_clamped(float value, const Curve& curve) {
-    if (!(value > 0.0f)) return 0;  // NaN lands here too
-    if (value >= 1.0f) return 255;
-    return curve(value);
-}
-
-template <typename Curve>
-void encode_row(std::span<const float> values, std::size_t channels, std::span<std::uint8_t> bytes,
-                const Curve& curve) {
-    const bool has_alpha = channels == 2 || channels == 4;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        bytes[i] = encode_clamped(values[i], curve);
-        if (has_alpha && i % channels == channels - 1) {
-            bytes[i] = encode_8bit(values[i], Encoding::linear);
-        }
-    }
+void encode(std::span<const float> values, std::span<std::uint8_t> bytes, const Curve& curve) {
+    std::ranges::transform(values, bytes.begin(), [&](float value) -> std::uint8_t {
+        if (!(value > 0.0f)) return 0;  // NaN lands here too
+        return value >= 1.0f ? 255 : curve(value);
+    });
 }
 
 }  // namespace
 
-std::uint8_t encode_8bit(float value, Encoding encoding) {
-    return encode_clamped(value, [encoding](double linear) {  // in double the product is exact
-        return round_8bit(encoding == Encoding::srgb ? srgb_from_linear(linear) : linear);
-    });
-}
-
-void encode_8bit_row(const Picture& picture, int y, Encoding encoding,
-                     std::span<std::uint8_t> bytes) {
-    const auto channels = static_cast<std::size_t>(picture.channels);
-    const std::size_t count = static_cast<std::size_t>(picture.width) * channels;
-    const std::span row(picture.pixels.data() + count * static_cast<std::size_t>(y), count);
-    if (encoding == Encoding::srgb) return encode_row(row, channels, bytes, srgb_table());
-    encode_row(row, channels, bytes, [](double linear) { return round_8bit(linear); });
+void encode_8bit(std::span<const float> values, Encoding encoding, std::span<std::uint8_t> bytes) {
+    if (encoding == Encoding::srgb) return encode(values, bytes, srgb_table());
+    encode(values, bytes, [](double linear) { return round_8bit(linear); });
 }
 
 std::vector<std::uint8_t> encode_8bit(const Picture& picture, Encoding encoding) {
     std::vector<std::uint8_t> bytes(picture.pixels.size());
-    const std::size_t count = static_cast<std::size_t>(picture.width) * picture.channels;
-    for (int y = 0; y < picture.height; ++y) {
-        encode_8bit_row(picture, y, encoding, std::span(bytes).subspan(count * y, count));
-    }
+    encode_8bit(picture.pixels, encoding, bytes);
     return bytes;
 }
 

@@ -24,14 +24,9 @@ inline constexpr Named<Encoding> encoding_names[] = {
 /// The transfer curve of IEC 61966-2-1 from linear light to the stored value, both in [0, 1].
 double srgb_from_linear(double linear);
 
-/// Encodes one value: clamped to [0, 1], through the encoding's curve, then floor(x * 255 + 0.5).
+/// Encodes values: clamped to [0, 1], through the encoding's curve, then floor(x * 255 + 0.5).
 /// NaN becomes 0; callers count non-finite pixels first.
-std::uint8_t encode_8bit(float value, Encoding encoding);
-
-/// Row y of the picture as 8 bits, into as many bytes as it has values. The last of 2 or 4
-/// channels is alpha, which has no curve.
-void encode_8bit_row(const Picture& picture, int y, Encoding encoding,
-                     std::span<std::uint8_t> bytes);
+void encode_8bit(std::span<const float> values, Encoding encoding, std::span<std::uint8_t> bytes);
 
 /// The whole picture as 8 bits.
 std::vector<std::uint8_t> encode_8bit(const Picture& picture, Encoding encoding);

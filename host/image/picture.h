@@ -16,7 +16,7 @@ struct Picture {
     int height = 0;
     int channels = 3;
     std::vector<float> pixels;
-    std::vector<std::string> channel_names = {};  ///< for .exr, any number; empty: Y, YA, RGB, RGBA
+    std::vector<std::string> channel_names = {};  ///< for .exr, any number; empty: Y or RGB
 };
 
 inline bool have_same_shape(const Picture& a, const Picture& b) {

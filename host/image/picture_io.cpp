@@ -146,14 +146,6 @@ namespace {
 
 using Metadata = std::span<const std::pair<std::string, std::string>>;
 
-void check_channels(const std::string& path, const Picture& picture) {
-    constexpr int most_without_names = 4;
-    if (picture.channels <= most_without_names || !picture.channel_names.empty()) return;
-    throw Error(ExitCode::output,
-                fmt::format("{}: cannot write {} channels, at most {}; use a picture with fewer",
-                            path, picture.channels, most_without_names));
-}
-
 std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat format,
                                           const Picture& picture, Encoding encoding,
                                           Metadata metadata) {
@@ -182,7 +174,6 @@ void write_picture(const std::string& path, const Picture& picture, Encoding enc
     if (!format) format = picture_format_of_name(path);
     check_picture_path(path, format);
     check_picture_fits(path, picture.width, picture.height, format);
-    check_channels(path, picture);
     if (format == PictureFormat::pfm) return write_pfm(path, picture);
     write_file_atomically(path,
                           format == PictureFormat::png

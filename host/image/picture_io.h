@@ -36,7 +36,7 @@ std::optional<PictureFormat> known_picture_format(const std::string& path);
 /// The same; throws Error(ExitCode::usage) with the list of formats if unknown.
 PictureFormat picture_format_of_name(const std::string& path);
 
-/// Writes a picture in the format of its extension: .png (8 bits a channel, 1 to 4 channels), .exr
+/// Writes a picture in the format of its extension: .png (8 bits a channel, 1 or 3 channels), .exr
 /// (32-bit float, zip, lossless), .pfm (32-bit float, 1 or 3 channels), or what OpenImageIO writes:
 /// .tif (32-bit float), .hdr (shared exponents), .jpg .webp .tga .bmp .ppm .dpx (8 bits). The
 /// encoding applies to 8 bits only. A given format overrides the extension. The file appears whole

@@ -116,10 +116,8 @@ class MemoryStream : public Imf::OStream {
 
 std::vector<std::string> names_of_channels(const Picture& picture) {
     if (!picture.channel_names.empty()) return picture.channel_names;
-    constexpr std::string_view usual[] = {"Y", "YA", "RGB", "RGBA"};
-    std::vector<std::string> names;
-    for (const char letter : usual[picture.channels - 1]) names.emplace_back(1, letter);
-    return names;
+    if (picture.channels == 1) return {"Y"};
+    return {"R", "G", "B"};
 }
 
 /// 32-bit float, zip, no date.

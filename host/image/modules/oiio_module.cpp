@@ -26,7 +26,6 @@ void configure_once() {
 OIIO::ImageSpec make_spec(const EncodeRequest& request, OIIO::TypeDesc type) {
     const Picture& picture = request.picture;
     OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
     if (request.color_space != nullptr) spec.attribute("oiio:ColorSpace", request.color_space);
     if (type == OIIO::TypeFloat) spec.attribute("compression", "zip");
     spec.attribute("DateTime", "");  // else TIFF is stamped with the time
