@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/base/memory.h"
+#include "host/render/film.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
@@ -98,15 +99,12 @@ std::string flags_at(const void* address) {
     return "";
 }
 
-TEST(ResizeHuge, GrowsWithZerosAndAsksForLargePagesWhereThereIsMuch) {
-    std::vector<int> items{1, 2};
-    resize_huge(items, 5);
-    EXPECT_EQ(items, (std::vector<int>{1, 2, 0, 0, 0}));
-    resize_huge(items, 8 * mib);
-    EXPECT_EQ(items.size(), 8 * mib);
-    EXPECT_EQ(std::count(items.begin(), items.end(), 0), static_cast<std::ptrdiff_t>(8 * mib - 2));
+TEST(Film, BeginsBlackOnLargePagesWhereThereIsMuch) {
+    const std::vector<float> items = Film<float>(1024, 1024).rgb;
+    EXPECT_EQ(items.size(), 3 * mib);
+    EXPECT_EQ(std::count(items.begin(), items.end(), 0.0f), static_cast<std::ptrdiff_t>(3 * mib));
     if (!fs::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "no large pages here";
-    const std::string flags = flags_at(&items[4 * mib]);
+    const std::string flags = flags_at(&items[mib]);
     EXPECT_NE(flags.find(" hg "), flags.npos) << flags;
 }
 

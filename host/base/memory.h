@@ -14,15 +14,6 @@ namespace rt {
 /// on systems without them.
 void advise_huge_pages(void* memory, std::size_t bytes);
 
-/// Grows a vector that will be filled, on huge pages: with small pages most of the fill cost is
-/// page faults, and incoherent rays suffer TLB misses.
-template <typename Item>
-void resize_huge(std::vector<Item>& items, std::size_t count) {
-    items.reserve(count);
-    advise_huge_pages(items.data() + items.size(), (count - items.size()) * sizeof(Item));
-    items.resize(count);
-}
-
 /// Asks for huge pages, and leaves what `resize` adds uninitialized.
 template <typename Item>
 struct HugeAllocator {

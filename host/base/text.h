@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace rt {
 
@@ -21,6 +22,9 @@ std::optional<N> parse_number(std::string_view text) {
     if (error != std::errc{} || stop != end) return std::nullopt;
     return number;
 }
+
+/// The parts between separators; all of the text if there is none.
+std::vector<std::string> split(std::string_view text, char separator);
 
 /// The value of an environment variable, or "".
 std::string environment(const char* name);

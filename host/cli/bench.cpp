@@ -44,7 +44,7 @@ void add_bench(Verb& program, const Invocation&) {
                "picture sizes in pixels, N or WxH (default: 100,200,300,400,500)");
     verb.value("--aa", "LIST", bench.aa, parse_aa_list, "AA modes (default: none,grid:2)");
     add_device_list(verb, "--devices", bench.devices);
-    verb.value("--threads", "N", bench.threads, count_in(1, most_threads),
+    verb.value("--threads", "N", bench.threads, count_in(1, DeviceSpec::most_threads),
                "time 'threads' with 1 to N threads (default: all cores)");
     add_precisions(verb, bench.precisions);
     add_light_options(verb, bench.light);

@@ -199,8 +199,7 @@ Verb::Verb(const std::string& whole, const std::string& help) : path(whole), abo
 Option& Verb::option(const std::string& names, const std::string& type, const std::string& help,
                      const TakeText& take, bool required) {
     Option& option = options.emplace_back();
-    std::istringstream list(names);
-    for (std::string one; std::getline(list, one, ',');) option.names.push_back(one);
+    option.names = split(names, ',');
     option.type = type;
     option.help = help;
     option.group = group;

@@ -13,14 +13,9 @@ namespace {
 
 /// The words that a type such as "float|double" lists; none for "FILE|-", "WxH|N" and the like.
 std::vector<std::string> values_of(const std::string& type) {
-    std::vector<std::string> values{""};
-    for (const char c : type) {
-        if (c == '|') {
-            values.emplace_back();
-        } else if (c != '[' && c != ']') {
-            values.back() += c;
-        }
-    }
+    std::string words = type;
+    std::erase_if(words, [](char c) { return c == '[' || c == ']'; });
+    std::vector<std::string> values = split(words, '|');
     std::erase(values, "..");  // and so on
     const bool are_words = std::ranges::all_of(values, [](const std::string& value) {
         return !value.empty() &&

@@ -52,7 +52,7 @@ void add_sweep(Verb& verb, ConvergeCall& converge) {
     verb.value("--aa", "LIST", converge.aa, parse_aa_list,
                "AA modes (default: " + std::string(default_sweep) + ")");
     add_device_list(verb, "--devices", converge.devices);
-    verb.value("--threads", "N", converge.threads, count_in(1, most_threads),
+    verb.value("--threads", "N", converge.threads, count_in(1, DeviceSpec::most_threads),
                "number of threads for 'threads' (default: all cores)");
     add_precisions(verb, converge.precisions);
     add_choice(verb, "--math", converge.math, math_choices,

@@ -86,34 +86,26 @@ std::string parse_device(const std::string& text) {
 }
 
 std::vector<std::string> split_list(const std::string& text, const std::string& reason) {
-    std::vector<std::string> parts;
-    std::size_t at = 0;
-    for (;;) {
-        const std::size_t comma = text.find(',', at);
-        parts.push_back(text.substr(at, comma - at));
-        if (parts.back().empty()) refuse(text, reason);
-        if (comma == std::string::npos) return parts;
-        at = comma + 1;
-    }
+    const std::vector<std::string> parts = split(text, ',');
+    if (std::ranges::count(parts, "") > 0) refuse(text, reason);
+    return parts;
 }
 
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator) {
     std::vector<int> numbers;
-    const char* at = text.data();
-    const char* const end = text.data() + text.size();
-    for (;;) {
+    for (const std::string& part : split(text, separator)) {
+        const char* const end = part.data() + part.size();
         int number = 0;
-        const auto [stop, error] = std::from_chars(at, end, number);
+        const auto [stop, error] = std::from_chars(part.data(), end, number);
         if (error == std::errc::result_out_of_range) {
             number = std::numeric_limits<int>::max();
         } else if (error != std::errc{}) {
             return std::nullopt;
         }
+        if (stop != end) return std::nullopt;
         numbers.push_back(number);
-        if (stop == end) return numbers;
-        if (*stop != separator) return std::nullopt;
-        at = stop + 1;
     }
+    return numbers;
 }
 
 std::string device_from_environment() {

@@ -133,8 +133,6 @@ void add_choice(Verb& verb, const std::string& option, T& target, const Named<N>
                one_of(choices), help);
 }
 
-inline constexpr int most_threads = 4096;
-
 /// Comma-separated AA modes, without duplicates.
 inline std::vector<AaMode> parse_aa_list(const std::string& text) { return set_of(parse_aa)(text); }
 

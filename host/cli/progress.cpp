@@ -32,7 +32,7 @@ std::string eta_text(double fraction, double seconds) {
 ProgressMode progress_mode_for_stderr(const RenderOptions& options) {
     if (options.progress != ProgressMode::automatic) return options.progress;
     if (options.quiet) return ProgressMode::none;
-    const bool can_show_bar = isatty(STDERR_FILENO) == 1 && options.view.terminal.kind != "dumb";
+    const bool can_show_bar = isatty(STDERR_FILENO) == 1 && options.view.terminal != "dumb";
     return can_show_bar ? ProgressMode::bar : ProgressMode::plain;
 }
 

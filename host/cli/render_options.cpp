@@ -30,8 +30,8 @@ TevAddress parse_tev_address(const std::string& text) {
 }
 
 void add_view_options(Verb& verb, ViewSettings& view) {
-    view.terminal.kind = environment("TERM");
-    view.terminal.without_colors = !environment("NO_COLOR").empty();
+    view.terminal = environment("TERM");
+    view.without_colors = !environment("NO_COLOR").empty();
     verb.flag("--preview", view.preview, "show the picture in the terminal while it renders");
     verb.flag("--show", view.window,
               "show the picture in a window while it renders; Escape or q closes the window, and "
@@ -89,13 +89,10 @@ std::string parse_isa(const std::string& text) {
 }
 
 std::uint64_t parse_hash(const std::string& text) {
-    std::uint64_t hash = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, hash, 16);
-    if (text.size() != 16 || error != std::errc{} || stop != end) {
+    if (text.size() != 16 || text.find_first_not_of("0123456789abcdefABCDEF") != text.npos) {
         refuse(text, "expected 16 hexadecimal digits, as render prints them");
     }
-    return hash;
+    return std::stoull(text, nullptr, 16);
 }
 
 /// "all", "auto", or names as in --stats with hyphens for blanks.
@@ -184,7 +181,7 @@ void add_device_options(Verb& verb, RenderOptions& render) {
                "(default: the best)");
     add_choice(verb, "--schedule", render.schedule, schedule_names,
                "pthreads: shared tiles (default), or one thread per sample buffer");
-    verb.value("--threads", "N", render.threads, count_in(1, most_threads),
+    verb.value("--threads", "N", render.threads, count_in(1, DeviceSpec::most_threads),
                "number of threads for pthreads and PoCL (default: all cores)");
     verb.value("--tile", "WxH|N", render.tile, parse_size,
                "tile size in pixels (default: chosen by the device)");

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <utility>
 
 #include "host/base/error.h"
@@ -114,7 +113,7 @@ class Flattener {
         std::size_t crossover = bvh_crossover;
         if (options_.hierarchies.has_value()) crossover = *options_.hierarchies ? 2 : count + 1;
         if (count < crossover) return {};
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         Order order(count);
         HugeVector<BvhBox<T>> boxes(count);
         for_each(count, [&](std::size_t i) {
@@ -124,8 +123,7 @@ class Flattener {
         kind.root = build_bvh<T>(boxes, options_.threads, flat_.nodes);
         for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
         kind.stats.hierarchy = shape_of<T>(flat_.nodes, kind.root);
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        flat_.stats.bvh_seconds += taken.count();
+        flat_.stats.bvh_seconds += watch.seconds();
         return order;
     }
 
@@ -141,11 +139,9 @@ class Flattener {
 
     bool eye_is_on_surface() const {
         if (!view_.is_perspective) return false;
-        return eye_is_in_plane_ ||
-               std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
-                           [](const auto& sphere) { return sphere.touches != 0; }) ||
-               std::any_of(flat_.cones.begin(), flat_.cones.end(),
-                           [](const auto& cone) { return cone.touches != 0; });
+        const auto touches = [](const auto& shape) { return shape.touches != 0; };
+        return eye_is_in_plane_ || std::ranges::any_of(flat_.spheres, touches) ||
+               std::ranges::any_of(flat_.cones, touches);
     }
 
     /// Flattens one kind of primitive, then puts it into the order of its hierarchy's leaves.
@@ -288,8 +284,7 @@ class Flattener {
         Features& features = flat_.features;
         features[feature::spheres] = !flat_.spheres.empty();
         features[feature::huge_spheres] =
-            std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
-                        [](const auto& sphere) { return sphere.is_huge != 0; });
+            std::ranges::any_of(flat_.spheres, [](const auto& one) { return one.is_huge != 0; });
         features[feature::eye_on_surface] = flat_.params.eye_on_surface != 0;
         features[feature::cones] = !flat_.cones.empty();
         features[feature::triangles] = !flat_.triangles.empty();
@@ -314,18 +309,13 @@ class Flattener {
     FlatScene<T> flat_{};
 };
 
-template <typename Items>
-std::size_t bytes_of(const Items& items) {
-    return items.size() * sizeof(items[0]);
-}
-
 }  // namespace
 
 template <typename T>
 std::size_t FlatScene<T>::bytes() const {
-    return bytes_of(spheres) + bytes_of(cones) + bytes_of(triangles) + bytes_of(vertex_normals) +
-           bytes_of(materials) + bytes_of(lights) + bytes_of(nodes) + bytes_of(order) +
-           bytes_of(casters);
+#define RT_BYTES(type, name, what) +name.size() * sizeof(name[0])
+    return 0 RT_SCENE_ARRAYS(RT_BYTES);
+#undef RT_BYTES
 }
 
 template <typename T>

@@ -37,16 +37,12 @@ std::uint64_t mixed(std::uint64_t number) {
 
 std::optional<std::vector<int>> parse_ranges(std::string_view text, int most) {
     std::set<int> numbers;
-    for (bool is_last = false; !is_last;) {
-        const std::size_t comma = text.find(',');
-        const std::string_view range = text.substr(0, comma);
+    for (const std::string& range : split(text, ',')) {
         const std::size_t dash = range.find('-');
         const auto first = parse_number<int>(range.substr(0, dash));
         const auto last = dash == range.npos ? first : parse_number<int>(range.substr(dash + 1));
         if (!first || !last || *last < *first || *last > most) return {};
         for (int number = *first; number <= *last; ++number) numbers.insert(number);
-        is_last = comma == text.npos;
-        if (!is_last) text.remove_prefix(comma + 1);
     }
     return std::vector(numbers.begin(), numbers.end());
 }

@@ -26,15 +26,11 @@ std::string trimmed(const std::string& text) {
     return printable(whole.substr(first, whole.find_last_not_of(blanks) - first + 1));
 }
 
-/// "OpenCL 1.1 ..." and older cannot run the kernels.
-bool is_too_old(const std::string& version) {
-    return version.rfind("OpenCL 1.0", 0) == 0 || version.rfind("OpenCL 1.1", 0) == 0;
-}
-
 std::string why_unusable(const cl::Device& device, const std::string& version) {
     if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "its driver reports it as unavailable";
     if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "its driver has no compiler";
-    if (is_too_old(version)) return version + "; OpenCL 1.2 is required";
+    const bool is_old = version.starts_with("OpenCL 1.0") || version.starts_with("OpenCL 1.1");
+    if (is_old) return version + "; OpenCL 1.2 is required";
     return "";
 }
 
@@ -77,17 +73,12 @@ std::string why_no_device(const std::string& platform) {
                            : "check its driver");
 }
 
-std::vector<cl::Device> devices_of(const cl::Platform& platform) {
-    std::vector<cl::Device> devices;
-    platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
-    return devices;
-}
-
 void list_platform(const cl::Platform& platform, int platform_index, ClDeviceList& list) {
     std::string name = std::to_string(platform_index);
     try {
         name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
-        const std::vector<cl::Device> devices = devices_of(platform);
+        std::vector<cl::Device> devices;
+        platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
         if (devices.empty()) list.problems.push_back(why_no_device(name));
         int device_index = 0;
         for (const cl::Device& device : devices) {
@@ -131,8 +122,6 @@ namespace {
 
 using Kind = DeviceSpec::Kind;
 
-constexpr int most_threads_asked = 4096;
-
 constexpr Named<Kind> words[] = {{"", Kind::automatic}, {"auto", Kind::automatic},
                                  {"all", Kind::all},    {"threads", Kind::threads},
                                  {"cpu", Kind::cpu},    {"gpu", Kind::gpu},
@@ -149,8 +138,8 @@ DeviceSpec parse_spec(const std::string& text) {
     } else if (head == "threads") {
         spec.kind = Kind::threads;
         spec.threads = second.value_or(0);
-        if (spec.threads < 1 || spec.threads > most_threads_asked) {
-            usage_error("device '{}': expected 1 to {} threads", text, most_threads_asked);
+        if (spec.threads < 1 || spec.threads > DeviceSpec::most_threads) {
+            usage_error("device '{}': expected 1 to {} threads", text, DeviceSpec::most_threads);
         }
     } else if (head == "name" && !tail.empty()) {
         spec.kind = Kind::name;
@@ -303,13 +292,11 @@ bool DeviceSpec::fits(const ClDevice& device) const {
 
 std::vector<DeviceSpec> parse_device_specs(const std::string& list) {
     std::vector<DeviceSpec> specs;
-    for (std::size_t at = 0; at <= list.size();) {
-        const std::size_t end = std::min(list.find(',', at), list.size());
-        if (end == at && !list.empty()) {
+    for (const std::string& item : split(list, ',')) {
+        if (item.empty() && !list.empty()) {
             usage_error("device '{}': an item of the list is empty", list);
         }
-        specs.push_back(parse_spec(list.substr(at, end - at)));
-        at = end + 1;
+        specs.push_back(parse_spec(item));
     }
     return specs;
 }
@@ -322,9 +309,8 @@ std::string DeviceChoice::spec() const {
 DeviceChoice threads_choice(int threads) { return {.use_threads = true, .threads = threads}; }
 
 bool needs_opencl(const std::string& list) {
-    const std::vector<DeviceSpec> specs = parse_device_specs(list);
-    return std::any_of(specs.begin(), specs.end(),
-                       [](const DeviceSpec& spec) { return needs_opencl(spec); });
+    return std::ranges::any_of(parse_device_specs(list),
+                               [](const DeviceSpec& spec) { return needs_opencl(spec); });
 }
 
 bool gpu_may_be_here(const std::string& folder) {

@@ -76,7 +76,8 @@ struct DeviceSpec {
     std::string name{};  ///< part of a device's, platform's or vendor's name
     int index = 0;       ///< flat, or within its platform
     int platform = 0;
-    int threads = 0;  ///< 0: not given
+    int threads = 0;  ///< 0: not given, else at most most_threads
+    static constexpr int most_threads = 4096;
 
     bool fits(const ClDevice& device) const;
 };

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cstring>
 #include <optional>
-#include <sstream>
 #include <system_error>
 
 #include "host/base/files.h"
@@ -115,10 +114,9 @@ void set_cache_folder() {
 }
 
 void find_linker() {
-    std::istringstream folders(environment("PATH"));
     std::string path;
     bool is_found = false;
-    for (std::string folder; std::getline(folders, folder, ':');) {
+    for (const std::string& folder : split(environment("PATH"), ':')) {
         if (!fs::path(folder).is_absolute()) continue;  // anybody's ld may be there
         is_found |= access((fs::path(folder) / "ld").c_str(), X_OK) == 0;
         path += (path.empty() ? "" : ":") + folder;

@@ -33,8 +33,7 @@ SceneStats scene_stats(const Scene& scene) {
 }
 
 bool has_opencl(const Devices& devices) {
-    return std::any_of(devices.begin(), devices.end(),
-                       [](const DeviceChoice& choice) { return !choice.use_threads; });
+    return !std::ranges::all_of(devices, &DeviceChoice::use_threads);
 }
 
 /// Of a pixel in a picture's file, which grows by doubling as it is encoded.

@@ -8,7 +8,6 @@
 
 #include "host/base/text.h"
 #include "host/base/version.h"
-#include "host/print/print_stats.h"
 
 namespace rt {
 
@@ -91,12 +90,6 @@ void add_runs(const TimedRuns& runs, const std::string& device, std::string& tex
 
 std::string json_start(const std::string& format) {
     return "{\n  \"format\": \"mirrorball-" + format + "\"";
-}
-
-Json bench_environment_json(double load_before) {
-    Json json = environment_json();
-    json.update(machine_load_json(load_before));
-    return json;
 }
 
 std::string bench_csv(const BenchResult& result) {

@@ -12,6 +12,7 @@
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/process/stop_signal.h"
+#include "host/print/print_stats.h"
 #include "host/record/record.h"
 #include "host/stress/judge.h"
 
@@ -21,17 +22,13 @@ namespace rt {
 /// The first bytes of every result of this format.
 std::string json_start(const std::string& format);
 
-/// environment_json plus the load before the measurements and whether it makes the machine busy;
-/// "load" itself is from after them.
-Json bench_environment_json(double load_before);
-
 /// A result of bench, converge or stress: its format, version 1, environment, every raw run, and
 /// the figures computed from them (docs/FORMAT.schema.json).
 template <typename T>
 std::string result_json(const std::string& format, const T& result) {
-    Json json{{"format", "mirrorball-" + format},
-              {"version", 1},
-              {"environment", bench_environment_json(result.load_before)}};
+    Json environment = environment_json();
+    environment.update(machine_load_json(result.load_before));
+    Json json{{"format", "mirrorball-" + format}, {"version", 1}, {"environment", environment}};
     json.update(json_of(result));
     return json_text(json);
 }

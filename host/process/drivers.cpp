@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -155,9 +154,8 @@ Drivers list_drivers(const std::string& place, double deadline) {
 std::vector<std::string> unlisted_drivers(const std::string& place, const std::string& folders) {
     std::string named;
     for (const std::string& file : icd_files(place)) named += library_of(file) + "\n";
-    std::istringstream all(folders + ":" + library_folders);
     std::vector<std::string> found;
-    for (std::string folder; std::getline(all, folder, ':');) {
+    for (const std::string& folder : split(folders + ":" + library_folders, ':')) {
         for (const std::string library :
              {"libnvidia-opencl.so.1", "libamdocl64.so", "libigdrcl.so"}) {
             std::error_code error;

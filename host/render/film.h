@@ -19,8 +19,11 @@ namespace rt {
 template <typename T>
 struct Film {
     Film(int film_width, int film_height) : width(film_width), height(film_height) {
-        resize_huge(
-            rgb, 3 * static_cast<std::size_t>(film_width) * static_cast<std::size_t>(film_height));
+        const auto count =
+            3 * static_cast<std::size_t>(film_width) * static_cast<std::size_t>(film_height);
+        rgb.reserve(count);  // with small pages, most of the time to fill it goes to page faults
+        advise_huge_pages(rgb.data(), count * sizeof(T));
+        rgb.resize(count);
     }
 
     int width, height;  ///< pixels

@@ -49,18 +49,13 @@ namespace {
      name##_rays},
 
 template <typename T>
-std::span<const NativeKernels<T>> all_kernels();
-
-template <>
-std::span<const NativeKernels<float>> all_kernels() {
-    static const std::vector<NativeKernels<float>> kernels{RT_NATIVE_FLOAT(RT_NATIVE_ROW)};
-    return kernels;
-}
-
-template <>
-std::span<const NativeKernels<double>> all_kernels() {
-    static const std::vector<NativeKernels<double>> kernels{RT_NATIVE_DOUBLE(RT_NATIVE_ROW)};
-    return kernels;
+const std::vector<NativeKernels<T>>& all_kernels() {
+    static const std::vector<NativeKernels<float>> in_float{RT_NATIVE_FLOAT(RT_NATIVE_ROW)};
+    static const std::vector<NativeKernels<double>> in_double{RT_NATIVE_DOUBLE(RT_NATIVE_ROW)};
+    if constexpr (std::is_same_v<T, float>)
+        return in_float;
+    else
+        return in_double;
 }
 
 /// Whether the processor has what kernels use of this x86-64 level (see its psABI).
@@ -101,9 +96,7 @@ std::vector<std::string> native_isas() {
     std::vector<std::string> isas;
     for (const auto& kernels : all_kernels<float>()) {
         const std::string isa = kernels.isa;
-        if (std::find(isas.begin(), isas.end(), isa) == isas.end() && processor_has(isa)) {
-            isas.push_back(isa);
-        }
+        if (std::ranges::count(isas, isa) == 0 && processor_has(isa)) isas.push_back(isa);
     }
     return isas;
 }

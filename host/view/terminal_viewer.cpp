@@ -121,9 +121,10 @@ TerminalSize terminal_size() {
     return result;
 }
 
-std::unique_ptr<Viewer> make_preview(const TerminalNames& names, Encoding encoding,
+std::unique_ptr<Viewer> make_preview(const ViewSettings& settings, Encoding encoding,
                                      const Say& say) {
-    const bool has_colors = !names.kind.empty() && names.kind != "dumb" && !names.without_colors;
+    const bool has_colors =
+        !settings.terminal.empty() && settings.terminal != "dumb" && !settings.without_colors;
     if (isatty(STDERR_FILENO) != 1) {
         say("no preview: standard error is not a terminal");
     } else if (!has_colors || !is_utf8()) {

@@ -39,7 +39,7 @@ std::vector<std::unique_ptr<Viewer>> make_viewers(const ViewSettings& settings,
     std::vector<std::unique_ptr<Viewer>> viewers;
     if (settings.tev) viewers.push_back(make_tev_viewer(*settings.tev, name, say, stop));
     if (settings.window) viewers.push_back(make_window(name, encoding, say));
-    if (settings.preview) viewers.push_back(make_preview(settings.terminal, encoding, say));
+    if (settings.preview) viewers.push_back(make_preview(settings, encoding, say));
     std::erase(viewers, nullptr);
     return viewers;
 }
@@ -107,8 +107,7 @@ void LivePicture::tell(bool begins, const std::vector<Rect>& parts) {
 }
 
 bool LivePicture::any_open() const {
-    return std::any_of(viewers_.begin(), viewers_.end(),
-                       [](const auto& viewer) { return viewer->is_open(); });
+    return std::ranges::any_of(viewers_, [](const auto& viewer) { return viewer->is_open(); });
 }
 
 void LivePicture::run(const std::stop_token& stop) {

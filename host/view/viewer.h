@@ -49,18 +49,13 @@ struct TevAddress {
     std::string host = "127.0.0.1", port = "14158";
 };
 
-/// What the environment says about the terminal.
-struct TerminalNames {
-    std::string kind;             ///< TERM
-    bool without_colors = false;  ///< NO_COLOR
-};
-
 /// Where a picture is shown while it is rendered.
 struct ViewSettings {
     bool preview = false;  ///< in the terminal
     std::optional<TevAddress> tev;
     bool window = false;
-    TerminalNames terminal;
+    std::string terminal;         ///< TERM
+    bool without_colors = false;  ///< NO_COLOR
 };
 
 struct TerminalSize {
@@ -71,7 +66,8 @@ struct TerminalSize {
 TerminalSize terminal_size();
 
 /// A viewer that draws in stderr's terminal, or null: `say` receives why.
-std::unique_ptr<Viewer> make_preview(const TerminalNames& names, Encoding encoding, const Say& say);
+std::unique_ptr<Viewer> make_preview(const ViewSettings& settings, Encoding encoding,
+                                     const Say& say);
 
 /// A viewer that sends the picture to tev, unless `stop` is set.
 std::unique_ptr<Viewer> make_tev_viewer(const TevAddress& address, const std::string& name,
