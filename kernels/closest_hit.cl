@@ -119,12 +119,13 @@ RT_SEARCH_OUT_OF_LINE Hit closest_hit(const SceneView* scene, const Ray* ray, Ma
     search.second = (Reals)INFINITY;
     search.number = (Indices)RT_MAX_INDEX;
     search.limit = search.hit.t;
+    search.slack = RT_TIE * length3(ray->origin);
     search.finds_first = false;
     search.has_zones = RT_HAS(GLASS) && any_lane(live & (ray->zone > (Reals)0));
     Mask tied = RT_NO_LANES;
     for (;;) {
         search_all(scene, ray, &shear, &search);
-        Reals tie = search.hit.t * RT_TIE;
+        Reals tie = end_of_tie(&search, search.hit.t);
         if (!search.finds_first) tied = (search.hit.prim != RT_NONE) & (search.second <= tie);
         if (search.finds_first || !any_lane(tied)) break;
         search.limit = tied ? tie : (Reals)-1;

@@ -121,8 +121,8 @@ Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask 
     Mask touching = live & (hit->tied | is_on_edge(scene, hit));
     if (RT_HAS(GLASS)) touching |= live & (hit->t <= ray->zone);
     if (any_lane(touching)) {
-        Reals tie = hit->tied ? (Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0;
-        Reals back = (Reals)8 * surface.offset + tie;
+        Reals tie = RT_TIE * (hit->t + length3(ray->origin));
+        Reals back = (Reals)8 * surface.offset + (hit->tied ? tie : (Reals)0);
         real3 moved = add_scaled(surface.point, -back, ray->dir);
         surface.point = select3(touching, moved, surface.point);
         surface.back = touching ? back : (Reals)0;

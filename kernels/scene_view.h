@@ -37,6 +37,9 @@ typedef struct {
     Indices left, left_side;
 } Ray;
 
+// Surfaces count as one within this share of t and the origin's distance from the eye.
+#define RT_TIE ((Real)32 * (Real)RT_ROUNDOFF)
+
 typedef struct {
     Reals t, u, v;  // u, v: weights of a triangle's second and third vertex
     Indices prim;   // RT_NONE: a miss

@@ -2,18 +2,17 @@
 //
 // What a pass over the primitives keeps of its hits.
 //
-// Ties: surfaces within 32 half-ulps of the nearest one count as one surface, and the first of them
-// in the scene is hit. That set does not depend on the order of the tests, so neither does the
-// picture: a first pass finds the two smallest distances, and only if they lie that close does a
-// second pass look for the first in the scene. Rays through the shared edges of the paper's box
-// need it (they project onto the picture's diagonals); hardly any other rays do.
+// Ties: surfaces within 32 half-ulps (of the nearest hit's distance plus the origin's from the eye)
+// count as one surface, and the first of them in the scene is hit. That set does not depend on the
+// order of the tests, so neither does the picture: a first pass finds the two smallest distances,
+// and only if they lie that close does a second pass look for the first in the scene. Rays through
+// the shared edges of the paper's box need it (they project onto the picture's diagonals); hardly
+// any other rays do.
 #ifndef RT_SEARCH_CL
 #define RT_SEARCH_CL
 
 #include "kernels/math.cl"
 #include "kernels/scene_view.h"
-
-#define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)
 
 // What a pass over the primitives has found.
 typedef struct {
@@ -21,6 +20,7 @@ typedef struct {
     Reals second;      // first pass: the next distance after hit.t
     Indices number;    // second pass: the hit primitive's number in the scene
     Reals limit;       // farther hits do not count; negative: the lane is off
+    Reals slack;       // RT_TIE of the origin's distance from the eye
     bool finds_first;  // second pass: find the first in the scene, not the nearest
     bool has_zones;    // of some ray (Ray::zone)
 } Search;
@@ -45,6 +45,11 @@ Indices scene_numbers(const SceneView* scene, Indices prims, Mask live) {
     return numbers;
 }
 
+// How far surfaces reach that count as one with a surface at t.
+Reals end_of_tie(const Search* search, Reals t) {
+    return t * ((Real)1 + RT_TIE) + search->slack;
+}
+
 // Records primitive prim, which the lines of some lanes meet at t (possibly behind the origin, or
 // NaN).
 void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Reals u, Reals v,
@@ -59,7 +64,7 @@ void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Real
     } else {
         Reals runner_up = t < search->second ? t : search->second;
         search->second = better ? search->hit.t : (met ? runner_up : search->second);
-        search->limit = better ? t * RT_TIE : search->limit;
+        search->limit = better ? end_of_tie(search, t) : search->limit;
     }
     search->hit.t = better ? t : search->hit.t;
     search->hit.u = better ? u : search->hit.u;

@@ -211,6 +211,20 @@ TYPED_TEST(Touching, GlassStandsOnAFloor) {
     }
 }
 
+TYPED_TEST(Touching, AFloorIsSeenThroughAThinPaneOnIt) {
+    for (const double thickness : {0.1, 0.01, 0.001}) {
+        for (const double gap : {0.0, 1e-16, 4e-16, 1e-15, 4e-15, 1e-8, 1e-7, 4e-7, 1e-6, 1e-5}) {
+            Scene scene = front_view();
+            scene.ambient_light = glm::dvec3(1);
+            scene.materials = {glass(0.9, 1.5), matte(0.5, 0)};
+            add_slab(scene, 1, 0.7, 0.7 + thickness, 0);
+            const double z = 0.7 - gap;
+            add_quad(scene, {{{-2, -2, z}, {2, -2, z}, {2, 2, z}, {-2, 2, z}}}, 1);
+            expect_square<TypeParam>(scene, 0.9, [](const auto&) { return 0.9 * 0.9 * 0.5; });
+        }
+    }
+}
+
 TYPED_TEST(Touching, ALightNearAHugeBallDoesNotShineThroughIt) {
     Scene scene = front_view();
     scene.materials = {matte(0, 1)};

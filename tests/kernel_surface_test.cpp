@@ -378,7 +378,8 @@ TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceMovedOffTiesAndEdges) {
         if (!std::isfinite(hits[i].t)) continue;
         const bool touches = hits[i].tied != 0 || on_edge[i] != 0;
         Quad back = touches ? Quad(-8) * own[i].offset : Quad(0);
-        if (hits[i].tied != 0) back -= 32 * Quad(Flat<TypeParam>::roundoff) * hits[i].t;
+        const Quad reach = hits[i].t + length(exact(rays[i].origin));
+        if (hits[i].tied != 0) back -= 32 * Quad(Flat<TypeParam>::roundoff) * reach;
         Quad3 expected = exact(own[i].point) + back * exact(rays[i].dir);
         if (hits[i].prim >= scene.params.sphere_count) {
             const auto& triangle =
