@@ -46,9 +46,7 @@ Indices scene_numbers(const SceneView* scene, Indices prims, Mask live) {
 }
 
 // How far surfaces reach that count as one with a surface at t.
-Reals end_of_tie(const Search* search, Reals t) {
-    return t * ((Real)1 + RT_TIE) + search->slack;
-}
+Reals end_of_tie(const Search* search, Reals t) { return t * ((Real)1 + RT_TIE) + search->slack; }
 
 // Records primitive prim, which the lines of some lanes meet at t (possibly behind the origin, or
 // NaN).

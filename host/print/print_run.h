@@ -11,8 +11,8 @@
 #include "host/base/error.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
-#include "host/process/stop_signal.h"
 #include "host/print/print_stats.h"
+#include "host/process/stop_signal.h"
 #include "host/record/record.h"
 #include "host/stress/judge.h"
 

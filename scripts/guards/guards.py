@@ -49,8 +49,7 @@ GUARDS = [
          "live & is_on_edge(scene, hit)"),
     ], [("kernel_surface_test", "SurfaceAt.*"), ("stress", "ties")]),
     Guard("and by what a tie may hide", [
-        (K + "hit_surface.cl", "(Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0",
-         "(Reals)0 : (Reals)0"),
+        (K + "hit_surface.cl", "(hit->tied ? tie : (Reals)0)", "(Reals)0"),
     ], [("kernel_surface_test", "SurfaceAt.*")]),
     Guard("pixels are square to the last bit", [
         (F + "view_frame.cpp", "return {x, x};", "return {x, y};"),
@@ -163,9 +162,12 @@ GUARDS = [
         (K + "closest_hit.cl", "if (search.finds_first || !any_lane(tied)) break;", "break;"),
     ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
     Guard("surfaces within 32 u are one", [
-        (K + "search.cl", "#define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)",
-         "#define RT_TIE ((Real)1)"),
+        (K + "scene_view.h", "#define RT_TIE ((Real)32 * (Real)RT_ROUNDOFF)",
+         "#define RT_TIE ((Real)0)"),
     ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
+    Guard("and for short rays of the origin's distance, too", [
+        (K + "search.cl", " + search->slack;", ";"),
+    ], [("kernel_scene_test", "ClosestHit.*"), ("geometry_touching_test", "Touching.*")]),
     Guard("a smooth mirror never reflects under its face", [
         (K + "whitted.cl", "mirrored = select3(leaves, mirrored, reflect3(dir, "
          "surface->geometric));", "mirrored = select3(leaves, mirrored, mirrored);"),
