@@ -53,7 +53,7 @@ class ClRayTracer {
     using Answer = typename Flat<T>::RayAnswer;
 
     void trace_some(const Query* queries, Answer* answers, std::size_t count) {
-        constexpr std::size_t group = 16;
+        const std::size_t group = fitting_group(kernel_, device_, 16);
         const std::size_t items = (count + lanes_ - 1) / lanes_;
         const std::size_t whole_groups = (items + group - 1) / group * group;
         kernel_.setArg(count_argument_, static_cast<typename Flat<T>::Index>(count));

@@ -287,9 +287,7 @@ class ClRenderer : public Renderer<T> {
         sum_counts_.setArg(0, counts_);
         sum_counts_.setArg(2, static_cast<typename Flat<T>::Index>(kept_slots));
         for (const cl::Kernel* kernel : {&render_, &round_, &resolve_}) {
-            if ((*kernel)() == nullptr) continue;
-            group_ = std::min(
-                group_, kernel->getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(handle_of(device_)));
+            if ((*kernel)() != nullptr) group_ = fitting_group(*kernel, device_, group_);
         }
         FlatTile nothing{};
         nothing.width = 1;  // kernels divide by the width

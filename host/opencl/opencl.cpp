@@ -198,6 +198,10 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
 
 std::shared_ptr<OpenDevices> make_open_devices() { return std::make_shared<OpenDevices>(); }
 
+std::size_t fitting_group(const cl::Kernel& kernel, const ClDevice& device, std::size_t wanted) {
+    return std::min(wanted, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(handle_of(device)));
+}
+
 cl::Context OpenDevices::context(const ClDevice& device) {
     const std::lock_guard lock(mutex_);
     cl::Context& context = contexts_[device.handle];

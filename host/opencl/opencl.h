@@ -74,6 +74,9 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
 cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
                           const ProgramOptions& options);
 
+/// Work items per group: as many as wanted, but no more than the device can run of the kernel.
+std::size_t fitting_group(const cl::Kernel& kernel, const ClDevice& device, std::size_t wanted);
+
 /// Contexts and programs kept from picture to picture. Thread-safe.
 class OpenDevices {
    public:

@@ -92,8 +92,7 @@ void ProbeDevice::launch(const ProgramOptions& build, ProbeRecord& record) {
         }
     }
     kernel.setArg(1, static_cast<cl_uint>(record.count));
-    const std::size_t group = std::min(
-        usual_group, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(handle_of(device_)));
+    const std::size_t group = fitting_group(kernel, device_, usual_group);
     const std::size_t lanes = static_cast<std::size_t>(build.lanes);
     const std::size_t packets = (record.count + lanes - 1) / lanes;
     const std::size_t most_items = record.in_one_launch ? packets : most_launch_items;
