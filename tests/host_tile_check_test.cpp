@@ -31,8 +31,10 @@ struct Device : Renderer<float> {
 TEST(SelfTest, NoticesOtherBitsAndOtherCountsOfRays) {
     const FlatScene<float> scene = flatten<float>(load_default_scene());
     Device device(scene);
+    ClDevice gpu;
+    gpu.name = "GPU";
     const auto said = [&] {
-        return refusal_of([&] { self_test(device, "GPU", scene, ""); }).message;
+        return refusal_of([&] { self_test(device, gpu, scene, ""); }).message;
     };
     EXPECT_EQ(said(), "");
     device.brighter = 1;

@@ -43,8 +43,8 @@ std::string device_text(const ClDevice& device) {
         device.has_double ? counted(device.double_lanes, "double lane") : "no double",
         static_cast<double>(device.memory_bytes) / gib,
         static_cast<double>(device.max_buffer_bytes) / gib);
-    if (!device.rounds_correctly) {
-        text += "   does not guarantee correctly rounded division, so bits may differ\n";
+    if (!device.is_exact(Precision::float32)) {
+        text += "   does not guarantee exact rounding in float, so bits may differ\n";
     }
     if (!device.unusable.empty()) text += "   cannot be used: " + device.unusable + "\n";
     return text;

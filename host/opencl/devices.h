@@ -9,6 +9,7 @@
 
 #include "host/opencl/pocl.h"
 #include "host/record/describe.h"
+#include "host/render/picture_spec.h"
 
 struct _cl_device_id;
 
@@ -32,6 +33,18 @@ struct ClDevice {
 
     bool is_cpu() const { return kind == "CPU"; }
     bool is_gpu() const { return kind == "GPU"; }
+
+    /// Whether strict arithmetic gives the same bits as elsewhere, as far as its driver promises.
+    /// In double, OpenCL requires it.
+    bool is_exact(Precision precision) const {
+        return precision == Precision::float64 || (rounds_correctly && keeps_subnormals);
+    }
+
+    /// What to do if it gives other bits.
+    const char* advice(Precision precision) const {
+        return is_exact(precision) ? "clear its kernel cache, update its driver"
+                                   : "it does not promise exact rounding: use --math fast";
+    }
 };
 
 template <typename A, Of<ClDevice> X>
@@ -97,8 +110,9 @@ struct DeviceChoice {
     bool is_helper = false;  ///< threads added next to an automatically chosen device
     std::string note{};      ///< why it may be unexpected, for stderr; often empty
 
-    /// Whether strict arithmetic gives the same bits as elsewhere, as far as its driver promises.
-    bool is_exact() const { return use_threads || device.rounds_correctly || !failure.empty(); }
+    bool is_exact(Precision precision) const {
+        return use_threads || !failure.empty() || device.is_exact(precision);
+    }
 
     bool has_double() const { return use_threads || device.has_double; }
 

@@ -291,7 +291,7 @@ struct RenderCache {
 std::string joined_names(const std::vector<DeviceChoice>& devices);
 
 /// The names of devices whose bits may differ from the others'; "" if there are none.
-std::string inexact_names(const std::vector<DeviceChoice>& devices);
+std::string inexact_names(const std::vector<DeviceChoice>& devices, Precision precision);
 
 /// Warns of settings that do not apply to the device and would be dropped silently.
 void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
@@ -320,7 +320,7 @@ struct CrewMaker {
 /// kernel it keeps in its cache, is broken. Strict arithmetic only. About 33,000 samples, a
 /// millisecond or two.
 template <typename T>
-void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
+void self_test(Renderer<T>& renderer, const ClDevice& device, const FlatScene<T>& scene,
                const std::string& isa);
 
 /// The result of tracing part of a finished picture again on threads.

@@ -18,10 +18,10 @@ std::string joined_names(const std::vector<DeviceChoice>& devices) {
     return names;
 }
 
-std::string inexact_names(const std::vector<DeviceChoice>& devices) {
+std::string inexact_names(const std::vector<DeviceChoice>& devices, Precision precision) {
     std::string names;
     for (const DeviceChoice& choice : devices) {
-        if (!choice.is_exact()) names += choice.device.name + "\n";
+        if (!choice.is_exact(precision)) names += choice.device.name + "\n";
     }
     return names;
 }
@@ -49,10 +49,10 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
     if (!choice.failure.empty()) return;
     const bool is_pocl = choice.device.platform == pocl_platform;
     warn(settings.threads > 0 && !is_pocl, "--threads", choice.device.name);
-    if (settings.math == Math::strict && !choice.is_exact() && events.detail) {
+    if (settings.math == Math::strict && !choice.is_exact(settings.precision) && events.detail) {
         events.detail(choice.device.name +
-                      " does not guarantee correctly rounded division and square roots, so its "
-                      "pictures may differ in a few bits");
+                      " does not guarantee correctly rounded division and square roots, and "
+                      "subnormal numbers, so its pictures may differ in a few bits");
     }
 }
 
@@ -107,8 +107,9 @@ CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone)
         return renderer;
     };
     if (settings.self_test && settings.math == Math::strict) {
-        member.test = [scene = scene, name = device.name, isa = settings.kernels.isa](
-                          Renderer<T>& renderer) { self_test(renderer, name, *scene, isa); };
+        member.test = [scene = scene, device, isa = settings.kernels.isa](Renderer<T>& renderer) {
+            self_test(renderer, device, *scene, isa);
+        };
     }
     const bool by_samples = launches_samples(settings.kernels.launch, device, !aa.fixed_samples());
     member.stats.name = member.name;

@@ -51,7 +51,7 @@ class PictureJournal {
         header_.shares = to_string(settings.shares.value_or(Shares{}));
         header_.scene = stats.scene.name;
         header_.scene_hash = hash_text(stats.scene.hash);
-        header_.inexact_devices = inexact_names(devices);
+        header_.inexact_devices = inexact_names(devices, header_.picture.precision);
         header_.writer = joined_names(devices) + " on " + host;
         header_.key = key_of(scene);
         open();

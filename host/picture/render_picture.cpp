@@ -81,7 +81,8 @@ class Job {
     }
 
     RenderedPicture run(Devices devices, double wait_seconds) {
-        is_exact_ = settings_.math == Math::strict && inexact_names(devices).empty();
+        is_exact_ =
+            settings_.math == Math::strict && inexact_names(devices, precision_of<T>).empty();
         if (!is_exact_) std::erase_if(devices, [](const auto& choice) { return choice.is_helper; });
         if (is_first_) warn_of(devices);
         journal_.emplace(settings_, stats_, *scene_, devices, warn_);

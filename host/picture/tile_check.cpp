@@ -72,11 +72,11 @@ std::vector<std::size_t> sample(std::size_t n, double share) {
 }  // namespace
 
 template <typename T>
-void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
+void self_test(Renderer<T>& renderer, const ClDevice& device, const FlatScene<T>& scene,
                const std::string& isa) {
     const auto threads = checking_renderer(scene, isa);
-    for (const Rect& strip : test_strips(device, scene.params)) {
-        const auto [film, rays] = render_region(device, strip);
+    for (const Rect& strip : test_strips(renderer, scene.params)) {
+        const auto [film, rays] = render_region(renderer, strip);
         const auto [right, right_rays] = render_region(*threads, strip);
         const std::size_t wrong = differing_pixels(film, right);
         if (wrong == 0 && rays == right_rays) continue;
@@ -85,9 +85,8 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
                 ? fmt::format("{} of {} pixels differ from those of threads", wrong, strip.pixels())
                 : fmt::format("it counts {} rays, threads {}", rays.total(), right_rays.total());
         throw Error(ExitCode::device,
-                    fmt::format("{} fails its self-test: {}; clear its kernel cache, update its "
-                                "driver, or use --device threads",
-                                name, why));
+                    fmt::format("{} fails its self-test: {}; {}, or use --device threads",
+                                device.name, why, device.advice(precision_of<T>)));
     }
 }
 
@@ -107,9 +106,9 @@ TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
     return check;
 }
 
-template void self_test(Renderer<float>&, const std::string&, const FlatScene<float>&,
+template void self_test(Renderer<float>&, const ClDevice&, const FlatScene<float>&,
                         const std::string&);
-template void self_test(Renderer<double>&, const std::string&, const FlatScene<double>&,
+template void self_test(Renderer<double>&, const ClDevice&, const FlatScene<double>&,
                         const std::string&);
 template TileCheck check_tiles(const FlatScene<float>&, const std::string&,
                                const std::vector<Rect>&, double, const Rect&, const Film<float>&,

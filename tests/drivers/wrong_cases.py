@@ -40,6 +40,15 @@ class Wrong(WrongDriver):
         self.assertEqual(figures["image"]["hash"], self.right_hash())
         self.assertIn("fallback_from", figures["device"])
 
+    def test_that_promises_no_exact_rounding_is_advised_fast_math(self):
+        shim = dict(brighter("1.000001"), CL_SHIM_INEXACT="1")
+        self.assertRegex(self.render(shim, 0).stderr, "fails its self-test: .*use --math fast")
+        result = self.run_with(shim, "doctor", code=5)
+        self.assertRegex(result.stdout, "renders a wrong picture in float.*use --math fast")
+        said = self.run_with({"CL_SHIM_INEXACT": "1"}, "render", SCENE, "--size", "8", "--precision", "double",
+                             "--device", "pocl,threads", "-v", code=0).stderr
+        self.assertNotIn("round", said)
+
     def test_is_an_error_without_fallback(self):
         out = ["-o", str(self.folder / "out.pfm")]
         for shim, more in [(brighter("1.000001"), []), (self.CORNERS, ["--check", "100%"])]:
