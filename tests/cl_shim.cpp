@@ -15,6 +15,8 @@
 //   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds that a call takes before it fails
 //   CL_SHIM_DIE_WITH           .icd files, separated by blanks, all of which must be in use
+//   CL_SHIM_FOLDERS            if not empty, OCL_ICD_VENDORS must be a folder, as for Khronos'
+//   loader
 // Nothing in mirrorball knows about it.
 #include <dlfcn.h>
 #include <spawn.h>
@@ -22,6 +24,7 @@
 
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
+#include <CL/cl_ext.h>
 
 #include <algorithm>
 #include <atomic>
@@ -119,6 +122,8 @@ extern "C" int posix_spawn(pid_t* process, const char* path,
 }
 
 extern "C" cl_int clGetPlatformIDs(cl_uint size, cl_platform_id* platforms, cl_uint* count) {
+    const bool is_folder = std::filesystem::is_directory(setting("OCL_ICD_VENDORS"));
+    if (!setting("CL_SHIM_FOLDERS").empty() && !is_folder) return CL_PLATFORM_NOT_FOUND_KHR;
     if (die_in("clGetPlatformIDs")) return CL_OUT_OF_HOST_MEMORY;
     return real<decltype(clGetPlatformIDs)>("clGetPlatformIDs")(size, platforms, count);
 }

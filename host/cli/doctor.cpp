@@ -75,9 +75,8 @@ std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
     const std::uint64_t hash =
         render_picture(scene, settings, devices, {}, never_stopped).stats.image_hash;
     if (hash == (precision == Precision::float64 ? double_hash : float_hash)) return "";
-    return fmt::format(
-        "renders a wrong picture in {} (image {}); clear its kernel cache or update its driver",
-        to_string(precision), hash_text(hash));
+    return fmt::format("renders a wrong picture in {} (image {}); {}", to_string(precision),
+                       hash_text(hash), device.device.advice(precision));
 }
 
 /// Tests a device in this process, a worker.
@@ -153,17 +152,16 @@ Finding test_kernel_cache() {
 
 /// Of drivers, and of the devices that they list.
 void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings) {
-    const Drivers drivers = list_drivers(options.drivers);
+    const Drivers drivers = list_drivers(options.drivers, options.deadline);
     for (const std::string& file : drivers.files) findings.push_back({State::fine, "driver", file});
     for (const std::string& problem : drivers.bad_files) {
         findings.push_back({State::broken, "driver", problem});
     }
     for (const std::string& library : unlisted_drivers(options.drivers, options.library_folders)) {
-        findings.push_back({State::missing, "driver",
-                            fmt::format("{}: no .icd file names it; set OCL_ICD_VENDORS={}, or put "
-                                        "that name into {}/{}.icd",
-                                        library, library, options.drivers,
-                                        std::filesystem::path(library).stem().stem().string())});
+        findings.push_back(
+            {State::missing, "driver",
+             fmt::format("{}: no .icd file names it; put that name into {}/{}.icd", library,
+                         options.drivers, std::filesystem::path(library).stem().stem().string())});
     }
     if (drivers.files.empty() && drivers.devices.empty()) {
         return findings.push_back(
@@ -171,7 +169,8 @@ void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings
              "no driver in " + options.drivers + "; install pocl-opencl-icd or your GPU's driver"});
     }
     for (const std::string& problem : drivers.problems) {
-        findings.push_back({State::broken, "OpenCL", problem});
+        const bool others_work = !drivers.devices.empty();
+        findings.push_back({others_work ? State::missing : State::broken, "OpenCL", problem});
     }
     for (const ClDevice& device : drivers.devices) {
         const std::string index = std::to_string(device.index);

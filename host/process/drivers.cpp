@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// For loading and listing, which may never end.
-constexpr double most_seconds = 10;
+/// Loading and listing may never end, but many GPUs take seconds each to start.
+constexpr double most_deadlines = 6;
 
 constexpr const char* library_folders =
     "/usr/lib/x86_64-linux-gnu:/usr/lib/x86_64-linux-gnu/intel-opencl:/usr/lib64:/usr/lib:"
@@ -82,10 +82,10 @@ struct Listing {
     Json answer;          ///< "skipped": pairs of a file and why; "devices"; "problems"
 };
 
-/// `drivers`: an .icd file or a folder of them; empty: those of the environment.
+/// `drivers`: a folder of .icd files; empty: those of the environment.
 Listing list_in_worker(const std::string& drivers, double deadline) {
     const WorkerEnd end =
-        run_worker({{"mirrorball", "devices"}, drivers, deadline, 0, most_seconds});
+        run_worker({{"mirrorball", "devices"}, drivers, deadline, 0, most_deadlines * deadline});
     end_if_stopped(end);
     if (end.is_regular && !end.records.empty()) return {true, "", Json::parse(end.records.front())};
     const std::string how =
@@ -93,31 +93,27 @@ Listing list_in_worker(const std::string& drivers, double deadline) {
     return {end.is_started, how + (end.task.empty() ? "" : " while " + end.task), {}};
 }
 
+/// Lists the devices of these drivers by a folder of links to their files: Khronos' loader looks
+/// for drivers in folders only.
+Listing list_linked(const std::vector<std::string>& files, const TemporaryFolder& folder,
+                    double deadline) {
+    std::error_code error;
+    for (std::size_t i = 0; i < files.size() && !folder.name().empty(); ++i) {
+        fs::create_symlink(files[i], fmt::format("{}/{:04}.icd", folder.name(), i), error);
+    }
+    if (error || folder.name().empty()) return {false, "has no temporary folder", {}};
+    return list_in_worker(folder.name(), deadline);
+}
+
 /// Leaves out drivers that fail in a worker of their own; an only one has failed already, in this
 /// listing.
 void leave_out_failing(Drivers& drivers, const Listing& together, double deadline) {
     const bool is_only = drivers.files.size() == 1;
     std::erase_if(drivers.files, [&](const std::string& file) {
-        const Listing alone = is_only ? together : list_in_worker(file, deadline);
+        const Listing alone = is_only ? together : list_linked({file}, {}, deadline);
         if (!alone.failure.empty()) drivers.bad_files.push_back(problem_of(file, alone.failure));
         return !alone.failure.empty();
     });
-}
-
-Listing list_rest(Drivers& drivers, double deadline) {
-    drivers.place = drivers.files.front();
-    std::error_code error;
-    if (drivers.files.size() > 1) {
-        drivers.folder = std::make_unique<TemporaryFolder>();
-        drivers.place = drivers.folder->name();
-        for (std::size_t i = 0; i < drivers.files.size(); ++i) {
-            const std::string link = fmt::format("{}/{:04}.icd", drivers.place, i);
-            fs::create_symlink(drivers.files[i], link, error);
-        }
-    }
-    if (error) drivers.place.clear();
-    if (drivers.place.empty()) return {false, "has no temporary folder", {}};
-    return list_in_worker(drivers.place, deadline);
 }
 
 void add(Drivers& drivers, const Json& answer) {
@@ -138,7 +134,11 @@ Drivers list_drivers(const std::string& place, double deadline) {
     if (listing.is_started && !listing.failure.empty()) {
         leave_out_failing(drivers, listing, deadline);
         if (drivers.files.empty()) return drivers;
-        if (!drivers.bad_files.empty()) listing = list_rest(drivers, deadline);
+        if (!drivers.bad_files.empty()) {
+            drivers.folder = std::make_unique<TemporaryFolder>();
+            listing = list_linked(drivers.files, *drivers.folder, deadline);
+            if (listing.is_started) drivers.place = drivers.folder->name();
+        }
     }
     if (listing.failure.empty()) {
         add(drivers, listing.answer);

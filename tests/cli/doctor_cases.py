@@ -50,7 +50,7 @@ class Doctor(CliTest):
         env = {"LD_LIBRARY_PATH": str(self.folder), "OCL_ICD_VENDORS": str(self.folder)}
         finding = self.findings(0, **env)["driver"]
         self.assertEqual(finding["state"], "missing")
-        self.assertIn(f"set OCL_ICD_VENDORS={self.folder}/libnvidia-opencl.so.1", finding["verdict"])
+        self.assertIn(f"put that name into {self.folder}/libnvidia-opencl.icd", finding["verdict"])
         self.write_text("nvidia.icd", "libnvidia-opencl.so.1\n")
         self.assertNotIn("no .icd file", self.run_cli("doctor", env=env).stdout)
         env["OCL_ICD_VENDORS"] += "/libnvidia-opencl.so.1"
