@@ -30,10 +30,9 @@ bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
     return true;
 }
 
-/// What a picture file says of itself; empty if `read` cannot read it.
-std::optional<PictureMetadata> metadata_in(
-    const std::string& path, PictureFile (*read)(const std::string&) = read_picture_header) try {
-    return read(path).metadata;
+/// What a picture file says of itself; empty if it cannot be read.
+std::optional<PictureMetadata> metadata_in(const std::string& path) try {
+    return read_picture_header(path).metadata;
 } catch (const Error&) {
     return std::nullopt;
 }
@@ -79,14 +78,15 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
             {"mirrorball:Version", version}};
 }
 
-bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) {
-    if (!has_metadata(path)) return true;
-    const auto found = metadata_in(path, read_picture_file);  // to its end: a copy may be cut
-    return found &&
-           (text_in(*found, scene_hash_key).empty() ||
-            shows_the_same(*found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
-                                                    to_string(picture_spec(scene, options)), "",
-                                                    options.encoding)));
+bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) try {
+    const auto [picture, found] = read_picture_file(path);  // to its end: a copy may be cut
+    return count_non_finite(picture) == 0 &&
+           (text_in(found, scene_hash_key).empty() ||
+            shows_the_same(found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
+                                                   to_string(picture_spec(scene, options)), "",
+                                                   options.encoding)));
+} catch (const Error&) {
+    return false;
 }
 
 bool note_non_finite(const Picture& picture, const Rect& region, std::size_t count,

@@ -52,13 +52,22 @@ class Frames(CliTest):
 
     def test_resume_renders_those_that_are_missing(self):
         self.frames("--frames", "1-3")
-        (self.folder / "f02.pfm").write_text("mine")
+        mine = (self.folder / "f01.pfm").read_bytes()
+        (self.folder / "f02.pfm").write_bytes(mine)
         (self.folder / "f03.pfm").unlink()
         result = self.frames("--frames", "1-3", "--resume")
         self.assertIn("skipped 2 existing frames", result.stderr)
-        self.assertEqual((self.folder / "f02.pfm").read_text(), "mine")
+        self.assertEqual((self.folder / "f02.pfm").read_bytes(), mine)
         self.assertTrue((self.folder / "f03.pfm").exists())
         self.assertIn("skipped 3 existing frames", self.frames("--frames", "1-3", "--resume").stderr)
+
+    def test_resume_replaces_those_that_are_cut_or_hold_nan(self):
+        self.frames("--frames", "1-2")
+        whole = (self.folder / "f01.pfm").read_bytes()
+        for bad in [whole[:-1], whole[:-4] + b"\0\0\xc0\x7f"]:
+            (self.folder / "f01.pfm").write_bytes(bad)
+            self.assertIn("skipped 1 existing frame", self.frames("--frames", "1-2", "--resume").stderr)
+            self.assertEqual((self.folder / "f01.pfm").read_bytes(), whole)
 
     def test_resume_replaces_those_of_other_pictures(self):
         for ending in ["png", "exr"]:
