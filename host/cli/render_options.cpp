@@ -164,8 +164,9 @@ void add_series_options(Verb& verb, RenderOptions& render) {
 void add_device_options(Verb& verb, RenderOptions& render) {
     verb.value(
         "--device", "SPEC", render.device, parse_device,
-        "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several, separated "
-        "by commas, share the picture (default: $MIRRORBALL_DEVICE, $CL_PLATFORM_INDEX and "
+        "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N], all or auto; several, "
+        "separated by commas, share the picture (default: $MIRRORBALL_DEVICE, $CL_PLATFORM_INDEX "
+        "and "
         "$CL_DEVICE_INDEX, $CL_PLATFORM_NAME or $CL_DEVICE_TYPE, else the best available)");
     add_choice(verb, "--precision", render.precision, precision_names,
                "arithmetic precision (default: float)");
@@ -185,9 +186,11 @@ void add_device_options(Verb& verb, RenderOptions& render) {
                "number of threads for pthreads and PoCL (default: all cores)");
     verb.value("--tile", "WxH|N", render.tile, parse_size,
                "tile size in pixels (default: chosen by the device)");
-    verb.option("--features", "auto|all|LIST",
-                "compile what the scene needs (default), everything, or what it needs plus LIST",
-                [&](const std::string& text) { parse_features(text, render); });
+    verb.option(
+        "--features", "auto|all|LIST",
+        "compile what the scene needs (default), everything, or what it needs plus LIST (as "
+        "--stats names them, with hyphens for blanks)",
+        [&](const std::string& text) { parse_features(text, render); });
     add_choice(verb, "--hierarchies", render.hierarchies, hierarchy_choices,
                "build bounding volume hierarchies (default: auto, where they are faster)");
     add_choice(verb, "--caster-lists", render.caster_lists, switch_choices,

@@ -225,7 +225,7 @@ void settle_render(RenderOptions& render) {
          {render.resume && (render.output == stdout_path || (render.output.empty() && !is_batch)),
           "--resume requires -o FILE, next to which it saves finished tiles"},
          {has_target && render.aa->refines(),
-          "--target-rmse requires --aa edges:T, sobol:N or grid:N"},
+          "--target-rmse requires --aa edges:T, sobol:N, grid:N or none"},
          {render.estimate && has_shares,
           "--estimate works only for a whole picture, without --shard"},
          // Threads have no fast math, so every tile would differ.

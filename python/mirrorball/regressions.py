@@ -70,7 +70,7 @@ def main() -> int:
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old", metavar="OLD.json")
     parser.add_argument("new", metavar="NEW.json")
-    parser.add_argument("--max-regress", type=_share, default=.05, metavar="P%%", help="default: 5%%")
+    parser.add_argument("--max-regress", type=_share, default=.05, metavar="P%", help="default: 5%%")
     arguments = parser.parse_args()
     try:
         found = regressions(_read(arguments.old), _read(arguments.new), arguments.max_regress)
