@@ -14,7 +14,6 @@
 #include "host/base/parallel.h"
 #include "host/base/version.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/opencl/pocl.h"
 #include "host/process/drivers.h"
 #include "host/process/stop_signal.h"

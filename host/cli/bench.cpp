@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include "host/base/console.h"
-#include "host/base/error.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/opencl/pocl.h"
 #include "host/print/print_run.h"
 

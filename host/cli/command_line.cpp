@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "host/base/console.h"
-#include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/scene/words.h"
 

@@ -11,7 +11,6 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/image/false_color.h"
 #include "host/image/image_error.h"
 #include "host/image/picture_io.h"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/converge.h"
 
-#include <fmt/format.h>
-
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/image/picture_io.h"
 #include "host/opencl/pocl.h"
 #include "host/print/print_run.h"

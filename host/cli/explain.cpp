@@ -7,7 +7,6 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/explain/ray_tree.h"
 #include "host/record/record.h"
 #include "host/scene/scene.h"

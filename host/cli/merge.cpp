@@ -8,7 +8,6 @@
 #include "host/base/text.h"
 #include "host/cli/options.h"
 #include "host/cli/render_pictures.h"
-#include "host/cli/verb.h"
 #include "host/image/image_error.h"
 #include "host/image/output_file.h"
 #include "host/image/picture_io.h"

@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <string>
 #include <system_error>
 
-#include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/image/output_file.h"
 #include "host/opencl/devices.h"
 #include "host/render/native_kernels.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/verb.h"
+#include "host/cli/command_line.h"
 #include "host/image/encoding.h"
 #include "host/image/picture_io.h"
 #include "host/picture/render_settings.h"

@@ -13,10 +13,8 @@
 #include <map>
 #include <optional>
 #include <sstream>
-#include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "host/base/console.h"
 #include "host/base/error.h"

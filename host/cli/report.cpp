@@ -9,7 +9,6 @@
 #include "host/base/error.h"
 #include "host/base/files.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 
 namespace rt {
 

@@ -8,7 +8,6 @@
 #include "host/base/error.h"
 #include "host/cli/options.h"
 #include "host/cli/render_pictures.h"
-#include "host/cli/verb.h"
 #include "host/flatten/flat_scene.h"
 #include "host/print/print_stats.h"
 #include "host/scene/scene_file.h"

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/selftest/selftest.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
 #include "host/process/stop_signal.h"

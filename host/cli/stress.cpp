@@ -2,7 +2,6 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/image/output_file.h"
 #include "host/picture/crew.h"
 #include "host/print/print_run.h"

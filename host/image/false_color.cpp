@@ -2,7 +2,6 @@
 #include "host/image/false_color.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <system_error>
 
-#include "host/base/error.h"
 #include "host/base/text.h"
 
 namespace rt {

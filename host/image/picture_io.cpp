@@ -9,7 +9,6 @@
 #include <exception>
 #include <iterator>
 #include <new>
-#include <string_view>
 
 #include "host/base/error.h"
 #include "host/base/files.h"

@@ -2,14 +2,12 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "host/image/encoding.h"
 #include "host/image/picture.h"

@@ -9,7 +9,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <system_error>
 #include <utility>
 
 #include "host/base/error.h"

@@ -11,11 +11,9 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/base/parallel.h"
-#include "host/measure/timing.h"
 #include "host/record/record.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene.h"
-#include "host/scene/scene_file.h"
 
 namespace rt {
 

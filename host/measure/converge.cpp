@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -19,9 +18,7 @@
 #include "host/base/parallel.h"
 #include "host/image/image_error.h"
 #include "host/image/picture_io.h"
-#include "host/measure/timing.h"
 #include "host/scene/scene.h"
-#include "host/scene/scene_file.h"
 
 namespace rt {
 

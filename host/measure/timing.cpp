@@ -2,7 +2,6 @@
 #include "host/measure/timing.h"
 
 #include <fmt/format.h>
-#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>

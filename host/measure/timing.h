@@ -3,7 +3,6 @@
 
 #include <sched.h>
 
-#include <cstdint>
 #include <functional>
 #include <istream>
 #include <optional>

@@ -3,18 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <deque>
-#include <memory>
 #include <span>
 #include <thread>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/opencl/opencl.h"
-#include "host/opencl/pocl.h"
 #include "host/render/tile_rounds.h"
 
 namespace rt {

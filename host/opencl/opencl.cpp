@@ -7,8 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/hash.h"

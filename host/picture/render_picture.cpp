@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <optional>
 #include <utility>
 
 #include "host/base/error.h"
@@ -15,7 +14,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/picture/crew.h"
 #include "host/picture/picture_journal.h"
-#include "host/scene/scene.h"
 
 namespace rt {
 

@@ -12,7 +12,6 @@
 #include <fstream>
 #include <map>
 #include <system_error>
-#include <utility>
 
 #include "host/base/console.h"
 #include "host/base/parallel.h"

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <span>
 #include <type_traits>
 
 #include "host/base/error.h"

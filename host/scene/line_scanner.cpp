@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
-#include <utility>
 
 #include "host/scene/scene.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/parallel.h"
 #include "host/base/text.h"
 #include "host/scene/mesh.h"
 #include "host/scene/mtl_file.h"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "host/scene/scene.h"
 

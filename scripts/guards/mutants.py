@@ -150,11 +150,11 @@ MUTANTS = [
         ("host/print/print_run.h", "if (wrong) return", "if (wrong && interrupted) return"),
     ], cli("measure_cases.Bench.test_a_picture_that_is_off_in_a_bit_is_wrong")),
     Mutant("stress ignores differing hashes", [
-        ("host/stress/stress_run.cpp", "if (hashes.size() < 2) continue;",
+        ("host/stress/judge.cpp", "if (hashes.size() < 2) continue;",
          "if (hashes.size() < 200) continue;"),
     ], cli("measure_cases.Stress.test_devices_that_disagree_in_a_bit_fail")),
     Mutant("stress ignores same_bits", [
-        ("host/stress/stress_run.cpp", "if (!trial.same_bits ||", "if (trial.same_bits ||"),
+        ("host/stress/judge.cpp", "if (!trial.same_bits ||", "if (trial.same_bits ||"),
     ], [("host_stress_test", "StressRun.CasesThatShouldHaveTheSameBits*")]),
     Mutant("kernel seconds times 7", [
         ("host/opencl/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
@@ -253,10 +253,10 @@ MUTANTS = [
          "if (merged.missing_pixels > 9999999) merged"),
     ], cli("journal_cases.Shares.test_that_are_missing_are_named")),
     Mutant("the self-test of a device always passes", [
-        ("host/picture/tile_check.cpp", "if (wrong == 0 && rays == right_rays)", "if (wrong < 9999)"),
+        ("host/picture/crew.cpp", "if (wrong == 0 && rays == right_rays)", "if (wrong < 9999)"),
     ], cli("wrong_cases.Wrong.test_by_its_self_test")),
     Mutant("--check compares tiles with themselves", [
-        ("host/picture/tile_check.cpp", "differing_pixels(again, part_of(film",
+        ("host/picture/crew.cpp", "differing_pixels(again, part_of(film",
          "differing_pixels(part_of(film, region, tile), part_of(film"),
     ], cli("wrong_cases.Wrong.test_by_tracing_tiles_again")),
     Mutant("a driver that crashes while it is listed is not left out", [
