@@ -6,7 +6,6 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/cli/options.h"
-#include "host/cli/verb.h"
 #include "host/image/output_file.h"
 #include "host/measure/timing.h"
 #include "host/process/worker.h"
@@ -21,7 +20,13 @@ int run_blame(const std::string& spec, const std::string& folder) {
     if (devices.size() != 1 || devices[0].use_threads) {
         usage_error("--device {}: blame takes one OpenCL device", spec);
     }
-    if (std::filesystem::exists(folder)) check_output_path(folder + "/README");
+    if (std::filesystem::exists(folder)) {
+        check_output_path(folder + "/README");
+        if (!std::filesystem::is_empty(folder) &&
+            !std::filesystem::exists(folder + "/launch.txt")) {
+            throw Error(ExitCode::output, folder + ": holds other files; choose a new folder");
+        }
+    }
     const DriverTask task(devices[0].name());
     const Blame blame = blame_device(devices[0].device, folder);
     print_result(blame.text);

@@ -136,8 +136,9 @@ class Selftest(WrongDriver):
     def test_blame_looks_at_its_folder_first(self):
         taken = self.folder / "taken"
         taken.write_text("mine")
-        result = self.run_with(self.fault("fma undone"), "blame", "--device", "pocl", "-o", str(taken), code=4)
-        self.assertNotIn("checking functions", result.stderr)
+        for folder in [taken, self.folder]:  # a file, and a folder with somebody's files
+            result = self.run_with(self.fault("fma undone"), "blame", "--device", "pocl", "-o", str(folder), code=4)
+            self.assertNotIn("checking functions", result.stderr)
 
     def test_blame_of_a_bit_in_double(self):
         if not ALL:
