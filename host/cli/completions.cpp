@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "host/base/text.h"
 #include "host/cli/command_line.h"
 
 namespace rt {
