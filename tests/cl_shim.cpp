@@ -107,7 +107,7 @@ bool die_in(const char* function) {
         usleep(20'000);
     }
     if (by == "delay") sleep(2);
-    return by == "error";
+    return by == "error" || by == "none";
 }
 
 }  // namespace
@@ -130,7 +130,9 @@ extern "C" cl_int clGetPlatformIDs(cl_uint size, cl_platform_id* platforms, cl_u
 
 extern "C" cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint size,
                                  cl_device_id* devices, cl_uint* count) {
-    if (die_in("clGetDeviceIDs")) return CL_OUT_OF_HOST_MEMORY;
+    if (die_in("clGetDeviceIDs")) {
+        return setting("CL_SHIM_DIE_BY") == "none" ? CL_DEVICE_NOT_FOUND : CL_OUT_OF_HOST_MEMORY;
+    }
     return real<decltype(clGetDeviceIDs)>("clGetDeviceIDs")(platform, type, size, devices, count);
 }
 

@@ -74,7 +74,7 @@ std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
         render_picture(scene, settings, devices, {}, never_stopped).stats.image_hash;
     if (hash == (precision == Precision::float64 ? double_hash : float_hash)) return "";
     return fmt::format("renders a wrong picture in {} (image {}); {}", to_string(precision),
-                       hash_text(hash), device.device.advice(precision));
+                       hash_text(hash), advice_on_other_bits(device.is_exact(precision)));
 }
 
 /// Tests a device in this process, a worker.
@@ -150,7 +150,7 @@ Finding test_kernel_cache() {
 
 /// Of drivers, and of the devices that they list.
 void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings) {
-    const Drivers drivers = list_drivers(options.drivers, options.deadline);
+    const Drivers drivers = list_drivers(options.drivers, std::min(options.deadline, 10.0));
     for (const std::string& file : drivers.files) findings.push_back({State::fine, "driver", file});
     for (const std::string& problem : drivers.bad_files) {
         findings.push_back({State::broken, "driver", problem});
@@ -167,8 +167,8 @@ void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings
              "no driver in " + options.drivers + "; install pocl-opencl-icd or your GPU's driver"});
     }
     for (const std::string& problem : drivers.problems) {
-        const bool others_work = !drivers.devices.empty();
-        findings.push_back({others_work ? State::missing : State::broken, "OpenCL", problem});
+        const bool is_idle = !drivers.devices.empty() && problem.find(no_devices) != problem.npos;
+        findings.push_back({is_idle ? State::missing : State::broken, "OpenCL", problem});
     }
     for (const ClDevice& device : drivers.devices) {
         const std::string index = std::to_string(device.index);

@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
 
 #include "host/base/text.h"
 #include "host/cli/options.h"
@@ -163,8 +161,7 @@ void add_device_options(Verb& verb, RenderOptions& render) {
         "--device", "SPEC", render.device, parse_device,
         "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N], all or auto; several, "
         "separated by commas, share the picture (default: $MIRRORBALL_DEVICE, $CL_PLATFORM_INDEX "
-        "and "
-        "$CL_DEVICE_INDEX, $CL_PLATFORM_NAME or $CL_DEVICE_TYPE, else the best available)");
+        "and $CL_DEVICE_INDEX, $CL_PLATFORM_NAME or $CL_DEVICE_TYPE, else the best available)");
     add_choice(verb, "--precision", render.precision, precision_names,
                "arithmetic precision (default: float)");
     add_choice(verb, "--math", render.math, math_names,

@@ -20,7 +20,7 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
                                  const std::string& settings, const std::string& image_hash,
                                  Encoding encoding);
 
-/// Whether a picture that exists is the one to be rendered, as far as its metadata tell.
+/// Whether a file is the picture to be rendered: whole, finite, and by its metadata, if any.
 bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options);
 
 /// Notes that `count` pixels of a picture of that region are not finite, if any. Returns whether

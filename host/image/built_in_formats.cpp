@@ -14,7 +14,6 @@
 #include <cstring>
 #include <memory>
 #include <new>
-#include <system_error>
 
 #include "host/base/error.h"
 #include "host/base/memory.h"

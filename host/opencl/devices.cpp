@@ -66,7 +66,7 @@ ClDevice describe(const cl::Device& device) {
 
 /// PoCL hides its device when it cannot write its kernel cache.
 std::string why_no_device(const std::string& platform) {
-    return fmt::format("OpenCL platform '{}' has no devices; {}", platform,
+    return fmt::format("OpenCL platform '{}'{}{}", platform, no_devices,
                        platform == pocl_platform
                            ? "check that its kernel cache can be written (POCL_CACHE_DIR, else "
                              "~/.cache/mirrorball), and check POCL_DEVICES"

@@ -39,12 +39,6 @@ struct ClDevice {
     bool is_exact(Precision precision) const {
         return precision == Precision::float64 || (rounds_correctly && keeps_subnormals);
     }
-
-    /// What to do if it gives other bits.
-    const char* advice(Precision precision) const {
-        return is_exact(precision) ? "clear its kernel cache, update its driver"
-                                   : "it does not promise exact rounding: use --math fast";
-    }
 };
 
 template <typename A, Of<ClDevice> X>
@@ -69,6 +63,9 @@ void describe(A& a, X& x) {
     a("usable", x.unusable.empty(), "");
     a("unusable_because", x.unusable, "");
 }
+
+/// What a problem says of a driver without devices, which may just lack its hardware.
+inline constexpr const char* no_devices = " has no devices; ";
 
 /// Every OpenCL device, in the loader's order; none when there is no OpenCL.
 struct ClDeviceList {
@@ -122,6 +119,12 @@ struct DeviceChoice {
     /// For --device: "threads", "threads:2", "0".
     std::string spec() const;
 };
+
+/// What to do about a device that gives other bits than threads.
+inline const char* advice_on_other_bits(bool is_exact) {
+    return is_exact ? "clear its kernel cache or update its driver"
+                    : "it does not promise exact rounding: use --math fast";
+}
 
 DeviceChoice threads_choice(int threads = 0);
 

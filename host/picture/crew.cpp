@@ -60,8 +60,8 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
     warn(settings.threads > 0 && !is_pocl, "--threads", choice.device.name);
     if (settings.math == Math::strict && !choice.is_exact(settings.precision) && events.detail) {
         events.detail(choice.device.name +
-                      " does not guarantee correctly rounded division and square roots, and "
-                      "subnormal numbers, so its pictures may differ in a few bits");
+                      " does not guarantee exact rounding in float, so its pictures may differ in "
+                      "a few bits");
     }
 }
 
@@ -202,9 +202,10 @@ void self_test(Renderer<T>& renderer, const ClDevice& device, const FlatScene<T>
             wrong > 0
                 ? fmt::format("{} of {} pixels differ from those of threads", wrong, strip.pixels())
                 : fmt::format("it counts {} rays, threads {}", rays.total(), right_rays.total());
-        throw Error(ExitCode::device,
-                    fmt::format("{} fails its self-test: {}; {}, or use --device threads",
-                                device.name, why, device.advice(precision_of<T>)));
+        throw Error(
+            ExitCode::device,
+            fmt::format("{} fails its self-test: {}; {}, or use --device threads", device.name, why,
+                        advice_on_other_bits(device.is_exact(precision_of<T>))));
     }
 }
 

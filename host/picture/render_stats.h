@@ -108,7 +108,7 @@ void describe(A& a, X& x) {
     const SceneId& id = x;
     describe(a, id);
     for (const KindStats& kind : x.flatten.kinds()) {
-        a(kind.many, kind.count, "those of meshes included");
+        a(kind.many, kind.count, "");
     }
     a("smooth_triangles", x.smooth_triangles, "those with vertex normals");
     a("lights", x.lights, "");

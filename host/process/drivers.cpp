@@ -69,6 +69,8 @@ std::string why_skipped(const std::string& file) {
     return is_driver ? "" : dlerror();
 }
 
+const std::string cannot_be_loaded = "cannot be loaded: ";
+
 std::string problem_of(const std::string& file, const std::string& what) {
     return printable(
         fmt::format("{}: its driver {}; reinstall the driver or remove the file", file, what));
@@ -110,14 +112,18 @@ void leave_out_failing(Drivers& drivers, const Listing& together, double deadlin
     const bool is_only = drivers.files.size() == 1;
     std::erase_if(drivers.files, [&](const std::string& file) {
         const Listing alone = is_only ? together : list_linked({file}, {}, deadline);
-        if (!alone.failure.empty()) drivers.bad_files.push_back(problem_of(file, alone.failure));
-        return !alone.failure.empty();
+        std::string failure = alone.failure;
+        if (failure.empty() && !alone.answer.at("skipped").empty()) {
+            failure = cannot_be_loaded + alone.answer.at("skipped").front().get<std::string>();
+        }
+        if (!failure.empty()) drivers.bad_files.push_back(problem_of(file, failure));
+        return !failure.empty();
     });
 }
 
 void add(Drivers& drivers, const Json& answer) {
     for (const auto& [file, why] : answer.at("skipped").get<std::map<std::string, std::string>>()) {
-        drivers.bad_files.push_back(problem_of(file, "cannot be loaded: " + why));
+        drivers.bad_files.push_back(problem_of(file, cannot_be_loaded + why));
         std::erase(drivers.files, file);
     }
     read_json(answer.at("devices"), drivers.devices);

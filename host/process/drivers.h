@@ -27,7 +27,7 @@ struct Drivers {
     /// only such.
     std::string place;
 
-    std::unique_ptr<TemporaryFolder> folder;  ///< of links to the files, if `place` needs it
+    std::unique_ptr<TemporaryFolder> folder;  ///< `place`: links to the files
 };
 
 /// Lists the devices of all drivers in a worker; if it fails, each driver's in one of its own, to

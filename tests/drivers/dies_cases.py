@@ -187,13 +187,22 @@ class Dies(WrongDriver):
         self.assertRegex(self.run_with(shim, "devices", code=0).stdout, words)
         self.assertRegex(self.run_with(shim, "doctor", code=5).stdout, "broken +OpenCL: " + words)
 
+    def test_one_without_devices_is_missing_and_one_that_fails_is_broken(self):
+        drivers = self.drivers("a.icd", "b.icd")
+        for by, code, words in [("none", 0, "missing +OpenCL: .* has no devices"),
+                                ("error", 5, "broken +OpenCL: .* cannot list its devices")]:
+            shim = {"CL_SHIM_DIE_IN": "clGetDeviceIDs", "CL_SHIM_DIE_BY": by, "CL_SHIM_DIE_AT": "3", **drivers}
+            self.assertRegex(self.run_with(shim, "doctor", code=code).stdout, words)
+
     def test_one_of_three_is_left_out(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
                 "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("a.icd", "bad.icd", "c.icd")}
+        self.write_text("drivers/lost.icd", "libno-such-driver.so.1\n")
         result = json.loads(self.run_with(shim, "devices", "--json", code=0).stdout)
         self.assertEqual([device["platform_index"] for device in result["devices"]], [0, 1])
-        self.assertEqual(len(result["problems"]), 1)
-        self.assertIn("bad.icd: its driver was killed by SIGABRT", result["problems"][0])
+        bad, lost = result["problems"]
+        self.assertIn("bad.icd: its driver was killed by SIGABRT", bad)
+        self.assertIn("lost.icd: its driver cannot be loaded", lost)
 
     def test_is_left_out_of_what_is_measured(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
