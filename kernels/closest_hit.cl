@@ -21,32 +21,40 @@ Indices side_of(const Surface* surface, real3 dir) {
 }
 
 // offer_hit, but for surfaces in the rays' zones that they have crossed: in the lanes returned.
+// Refracted rays start up to twice the surface's offset behind glass: other surfaces there tie.
 Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
-                     Reals u, Reals v, Index prim) {
-    Mask skipped = RT_NO_LANES;
-    if (RT_HAS(GLASS) && search->has_zones) {
-        Mask near = met & (t > (Reals)0) & (t <= ray->zone);
-        if (any_lane(near)) {
-            Hit hit = {t, u, v, (Indices)prim, RT_NO_LANES};
+                     Reals u, Reals v, Index prim, Index material) {
+    Mask crossed = RT_NO_LANES;
+    search->behind = (Reals)0;
+    if (RT_HAS(GLASS)) {
+        Packed3 through = scene->materials[material].transmission;
+        bool is_glass = (through.x != (Real)0) | (through.y != (Real)0) | (through.z != (Real)0);
+        Mask zoned = met & (t > (Reals)0) & (t <= ray->zone);
+        Mask nearest = is_glass ? met & (t > (Reals)0) & (t <= search->hit.t) : RT_NO_LANES;
+        if (any_lane(zoned | nearest)) {
+            Hit hit = {t, u, v, (Indices)prim, RT_NO_LANES, (Reals)0};
             Surface surface = primitive_surface(scene, ray, &hit, prim);
-            Mask crossed = (Indices)scene_number(scene, prim) < ray->left;
-            crossed |= side_of(&surface, ray->dir) == ray->left_side;
-            skipped = near & crossed;
-            met &= !skipped;
+            if (any_lane(zoned)) {
+                crossed = (Indices)scene_number(scene, prim) < ray->left;
+                crossed |= side_of(&surface, ray->dir) == ray->left_side;
+                crossed &= zoned;
+            }
+            Reals sine = max_of(fabs(dot3(surface.geometric, ray->dir)), (Reals)RT_SHARPEST);
+            if (is_glass) search->behind = (Reals)2 * surface.offset / sine;
         }
     }
-    offer_hit(scene, search, met, t, u, v, prim);
-    return skipped;
+    offer_hit(scene, search, met & !crossed, t, u, v, prim);
+    return crossed;
 }
 
 // offer_uncrossed for a sphere or cone that is met at t and, if that is farther, left at `far`.
 void offer_curved(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
-                  Reals far, Index prim) {
+                  Reals far, Index prim, Index material) {
     const Reals none = (Reals)0;
-    Mask crossed = offer_uncrossed(scene, ray, search, met, t, none, none, prim);
+    Mask crossed = offer_uncrossed(scene, ray, search, met, t, none, none, prim, material);
     crossed &= far > t;
     if (RT_HAS(GLASS) && any_lane(crossed)) {
-        offer_uncrossed(scene, ray, search, crossed, far, none, none, prim);
+        offer_uncrossed(scene, ray, search, crossed, far, none, none, prim, material);
     }
 }
 
@@ -61,7 +69,8 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
             Mask met = intersect_sphere(ray, sphere, prim, &t);
             if (any_lane(met)) {
                 Reals middle = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
-                offer_curved(scene, ray, search, met, t, (Reals)2 * middle - t, prim);
+                offer_curved(scene, ray, search, met, t, (Reals)2 * middle - t, prim,
+                             sphere->material);
             }
         }
     }
@@ -77,7 +86,8 @@ void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, 
             Reals t, far;
             Mask leaving = leaves_cone(ray, &scene->cones[i], prim);
             Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t, &far);
-            if (any_lane(met)) offer_curved(scene, ray, search, met, t, far, prim);
+            if (!any_lane(met)) continue;
+            offer_curved(scene, ray, search, met, t, far, prim, scene->cones[i].material);
         }
     }
 }
@@ -97,7 +107,7 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
             if (RT_HAS(EYE_ON_SURFACE) && scene->triangles[i].plane == (Real)0) {
                 met &= ray->from != RT_EYE;
             }
-            offer_uncrossed(scene, ray, search, met, t, u, v, prim);
+            offer_uncrossed(scene, ray, search, met, t, u, v, prim, scene->triangles[i].material);
         }
     }
 }
@@ -121,7 +131,7 @@ RT_SEARCH_OUT_OF_LINE Hit closest_hit(const SceneView* scene, const Ray* ray, Ma
     search.limit = search.hit.t;
     search.slack = RT_TIE * length3(ray->origin);
     search.finds_first = false;
-    search.has_zones = RT_HAS(GLASS) && any_lane(live & (ray->zone > (Reals)0));
+    search.hit.behind = (Reals)0;
     Mask tied = RT_NO_LANES;
     for (;;) {
         search_all(scene, ray, &shear, &search);

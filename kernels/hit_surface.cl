@@ -121,7 +121,7 @@ Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask 
     Mask touching = live & (hit->tied | is_on_edge(scene, hit));
     if (RT_HAS(GLASS)) touching |= live & (hit->t <= ray->zone);
     if (any_lane(touching)) {
-        Reals tie = RT_TIE * (hit->t + length3(ray->origin));
+        Reals tie = max_of(RT_TIE * (hit->t + length3(ray->origin)), hit->behind);
         Reals back = (Reals)8 * surface.offset + (hit->tied ? tie : (Reals)0);
         back = min_of(back, (Reals)0.5 * hit->t);  // not beyond what the ray started from
         real3 moved = add_scaled(surface.point, -back, ray->dir);

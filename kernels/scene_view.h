@@ -44,6 +44,7 @@ typedef struct {
     Reals t, u, v;  // u, v: weights of a triangle's second and third vertex
     Indices prim;   // RT_NONE: a miss
     Mask tied;      // several surfaces meet within rounding
+    Reals behind;  // how far behind glass that is hit other surfaces count as tied, if above RT_TIE
 } Hit;
 
 // Rays traced by each lane.

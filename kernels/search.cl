@@ -21,8 +21,8 @@ typedef struct {
     Indices number;    // second pass: the hit primitive's number in the scene
     Reals limit;       // farther hits do not count; negative: the lane is off
     Reals slack;       // RT_TIE of the origin's distance from the eye
+    Reals behind;      // Hit::behind of the surface being offered
     bool finds_first;  // second pass: find the first in the scene, not the nearest
-    bool has_zones;    // of some ray (Ray::zone)
 } Search;
 
 // A primitive's number in the scene: hierarchies reorder them.
@@ -46,7 +46,10 @@ Indices scene_numbers(const SceneView* scene, Indices prims, Mask live) {
 }
 
 // How far surfaces reach that count as one with a surface at t.
-Reals end_of_tie(const Search* search, Reals t) { return t * ((Real)1 + RT_TIE) + search->slack; }
+Reals end_of_tie(const Search* search, Reals t) {
+    Reals end = t * ((Real)1 + RT_TIE) + search->slack;
+    return RT_HAS(GLASS) ? max_of(end, t + search->hit.behind) : end;
+}
 
 // Records primitive prim, which the lines of some lanes meet at t (possibly behind the origin, or
 // NaN).
@@ -62,7 +65,14 @@ void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Real
     } else {
         Reals runner_up = t < search->second ? t : search->second;
         search->second = better ? search->hit.t : (met ? runner_up : search->second);
-        search->limit = better ? end_of_tie(search, t) : search->limit;
+        Mask nearest = better;
+        if (RT_HAS(GLASS)) {  // the same where several are nearest, in whatever order
+            Mask as_near = met & (t == search->hit.t);
+            Reals behind = as_near ? max_of(search->behind, search->hit.behind) : search->behind;
+            nearest |= as_near;
+            search->hit.behind = nearest ? behind : search->hit.behind;
+        }
+        search->limit = nearest ? end_of_tie(search, t) : search->limit;
     }
     search->hit.t = better ? t : search->hit.t;
     search->hit.u = better ? u : search->hit.u;

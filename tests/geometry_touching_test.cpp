@@ -225,6 +225,35 @@ TYPED_TEST(Touching, AFloorIsSeenThroughAThinPaneOnIt) {
     }
 }
 
+TYPED_TEST(Touching, ATiltedTableIsSeenThroughAPaneOnItAtAnyAngle) {
+    Random random(5);
+    for (int i = 0; i < 24; ++i) {
+        const glm::dvec3 up = random.unit_vector();
+        const glm::dvec3 right = glm::normalize(glm::cross(up, random.unit_vector()));
+        const glm::dvec3 ahead = glm::cross(up, right);
+        const auto level = [&](double half, double height) -> std::array<glm::dvec3, 4> {
+            const glm::dvec3 a = half * (right + ahead), b = half * (right - ahead);
+            return {height * up + a, height * up + b, height * up - a, height * up - b};
+        };
+        Scene scene = front_view();
+        scene.ambient_light = glm::dvec3(1);
+        scene.materials = {glass(1, 1), matte(0.5, 0)};
+        scene.materials[1].two_sided = true;
+        auto above = level(2, 0.1);
+        std::ranges::reverse(above);
+        add_quad(scene, above, 0);
+        add_quad(scene, level(2, 0), 0);
+        add_quad(scene, level(5, 0), 1);
+        scene.camera.projection = Scene::Projection::perspective;
+        scene.camera.from = (i % 2 == 0 ? 0.2 : 0.12) * up;
+        scene.camera.at = (i % 3 + 0.2) * 0.4 * ahead;
+        scene.camera.up = up;
+        scene.camera.field_of_view = {Scene::FieldOfView::Fixed::vertical, 4};
+        set_image_size(scene, size, size);
+        expect_square<TypeParam>(scene, 1, [](const auto&) { return 0.5; });
+    }
+}
+
 TYPED_TEST(Touching, ALightNearAHugeBallDoesNotShineThroughIt) {
     Scene scene = front_view();
     scene.materials = {matte(0, 1)};

@@ -385,7 +385,9 @@ TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceMovedOffTiesAndEdges) {
         const bool touches = hits[i].tied != 0 || on_edge[i] != 0;
         Quad back = touches ? Quad(8) * own[i].offset : Quad(0);
         const Quad reach = hits[i].t + length(exact(rays[i].origin));
-        if (hits[i].tied != 0) back += 32 * Quad(Flat<TypeParam>::roundoff) * reach;
+        const Quad tie =
+            std::max(32 * Quad(Flat<TypeParam>::roundoff) * reach, Quad(hits[i].behind));
+        if (hits[i].tied != 0) back += tie;
         back = std::min(back, Quad(hits[i].t) / 2);
         Quad3 expected = exact(own[i].point) - back * exact(rays[i].dir);
         if (hits[i].prim >= scene.params.sphere_count) {

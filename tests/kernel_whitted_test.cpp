@@ -145,6 +145,7 @@ FlatScene<T> shiny_crowd() {
         scene.cones.push_back({pack<T>(random.in_cube(2)), T(0.4), any(), T(0.9),
                                T(0.3 * random.index(3) - 0.3), 0, 0, 0});
     }
+    scene.materials.clear();
     for (Index<T> i = 0; i < 6; ++i) {
         const auto clear = i % 3 == 0 ? Packed3<T>{} : pack<T>(0.5 * in_double(color()));
         scene.materials.push_back({color(), T(5 << i), color(), i % 2, color(),

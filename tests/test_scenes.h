@@ -13,6 +13,7 @@ namespace rt {
 /// Sets the frame's counts; all triangles cast shadows.
 template <typename T>
 void count_primitives(FlatScene<T>& scene) {
+    if (scene.materials.empty()) scene.materials.resize(max_bvh_depth + 1);  // not glass
     scene.params.sphere_count = static_cast<Index<T>>(scene.spheres.size());
     scene.params.cone_count = static_cast<Index<T>>(scene.cones.size());
     scene.params.triangle_count = static_cast<Index<T>>(scene.triangles.size());

@@ -28,6 +28,7 @@
     X(REALS, u)      \
     X(REALS, v)      \
     X(INDICES, prim) \
-    X(MASK, tied)
+    X(MASK, tied)    \
+    X(REALS, behind)
 
 #endif

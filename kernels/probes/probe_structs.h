@@ -47,7 +47,7 @@ typedef struct {
 // Initial values of lanes that are then filled one by one.
 
 Hit no_hit() {
-    Hit hit = {(Reals)-1, (Reals)0, (Reals)0, (Indices)0, RT_NO_LANES};
+    Hit hit = {(Reals)-1, (Reals)0, (Reals)0, (Indices)0, RT_NO_LANES, (Reals)0};
     return hit;
 }
 
