@@ -43,8 +43,12 @@ int run_in_worker(const Verb& verb, const Invocation& call) {
     const WorkerEnd end = run_without_bad_drivers(command, call.drivers, false);
     if (end.is_regular) return end.status;
     end_if_stopped(end);
-    throw Error(verb.crash, (end.task.empty() ? "" : end.task + ": ") + "the worker process " +
-                                end.how + "; test each driver with 'mirrorball doctor'");
+    const std::string message = (end.task.empty() ? "" : end.task + ": ") + "the worker process " +
+                                end.how + "; test each driver with 'mirrorball doctor'";
+    const bool is_check = !end.records.empty() || end.task.find('/') != std::string::npos;
+    if (!verb.crashed || !is_check) throw Error(verb.crash, message);
+    print_error(message.c_str());
+    return verb.crashed(end);
 }
 
 int run(int argc, char** argv, double seconds_before_main) {

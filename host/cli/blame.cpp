@@ -31,7 +31,7 @@ int run_blame(const std::string& spec, const std::string& folder) {
     const Blame blame = blame_device(devices[0].device, folder);
     print_result(blame.text);
     if (blame.verdict.empty()) {
-        print_result("nothing is wrong\n");
+        print_result("found nothing wrong; 'mirrorball selftest' checks more\n");
         return 0;
     }
     print_result("to blame: " + blame.verdict + "\n");

@@ -38,6 +38,8 @@ struct Option {
     std::string word() const { return names.front() + (may_repeat ? "..." : ""); }
 };
 
+struct WorkerEnd;
+
 /// The program, or one of its verbs: what its command line may hold.
 struct Verb {
     std::string path;  ///< "mirrorball render"
@@ -47,7 +49,8 @@ struct Verb {
     std::function<int()> run;           ///< returns the exit status: an ExitCode, or 128 + a signal
     bool measures = false;              ///< to be run in a worker process, for drivers may crash
     ExitCode crash = ExitCode::device;  ///< what a crash of that process means
-    std::string group = "Options";      ///< of the options that are added next
+    std::function<int(const WorkerEnd&)> crashed;  ///< reports what it told before; may be empty
+    std::string group = "Options";                 ///< of the options that are added next
     bool wants_help = false;
 
     Verb(const std::string& path, const std::string& about);

@@ -36,6 +36,27 @@ std::vector<DeviceChoice> chosen_devices(const std::vector<std::string>& specs) 
     throw Error(ExitCode::device, "no usable OpenCL device; see 'mirrorball doctor'");
 }
 
+int report(const SelftestOptions& options, const Checks& checks, double seconds,
+           const std::vector<ClDevice>& devices) {
+    if (!options.results.take_stdout()) print_result(checks.text(seconds));
+    options.results.write("--json", [&] { return checks.json(seconds, devices); });
+    options.results.write("--junit", [&] { return checks.junit(seconds); });
+    return static_cast<int>(checks.is_all_expected() ? ExitCode::done : ExitCode::different);
+}
+
+/// Reports the checks that a worker told before it died, and the one in which it did.
+int report_crash(const SelftestOptions& options, const WorkerEnd& end) {
+    Checks checks({}, known_failures(options.expect));
+    double seconds = 0;
+    for (const std::string& record : end.records) {
+        const Json told = Json::parse(record);
+        checks.add({told.at("name"), told.value("why", ""), told.at("seconds")});
+        seconds += checks.list().back().seconds;
+    }
+    checks.add({end.task, "the worker process " + end.how, 0});
+    return report(options, checks, seconds, {});
+}
+
 int run_selftest(const SelftestOptions& options) {
     options.results.check({options.expect}, {});
     const Stopwatch watch;
@@ -57,11 +78,7 @@ int run_selftest(const SelftestOptions& options) {
         usage_error(
             "--filter fits no check{}",
             devices.size() > 1 ? "; of several devices, names begin with theirs: '0:dot3/*'" : "");
-    const double seconds = watch.seconds();
-    if (!options.results.take_stdout()) print_result(checks.text(seconds));
-    options.results.write("--json", [&] { return checks.json(seconds, checked); });
-    options.results.write("--junit", [&] { return checks.junit(seconds); });
-    return static_cast<int>(checks.is_all_expected() ? ExitCode::done : ExitCode::different);
+    return report(options, checks, watch.seconds(), checked);
 }
 
 }  // namespace
@@ -86,6 +103,7 @@ void add_selftest(Verb& program, const Invocation&) {
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
     verb.measures = true;
     verb.crash = ExitCode::different;
+    verb.crashed = [asked](const WorkerEnd& end) { return report_crash(*asked, end); };
     verb.run = [asked] {
         if (asked->devices.empty()) {
             const std::string device = device_from_environment();

@@ -66,7 +66,7 @@ bool Checks::wants(const std::string& name) const {
 
 void Checks::run(const std::string& name, const std::function<std::string()>& check) {
     if (!wants(name)) return;
-    Check done{name, "", 0, known_.count(name) != 0};
+    Check done{name, "", 0};
     const DriverTask task(name);
     const Stopwatch watch;
     try {
@@ -78,7 +78,13 @@ void Checks::run(const std::string& name, const std::function<std::string()>& ch
     }
     done.seconds = watch.seconds();
     note_worker_progress();
-    if (stop_flag() == 0) list_.push_back(std::move(done));
+    if (stop_flag() == 0) add(std::move(done));
+}
+
+void Checks::add(Check done) {
+    done.is_known = known_.count(done.name) != 0;
+    tell_parent(json_of(done).dump(-1, ' ', false, Json::error_handler_t::replace));
+    list_.push_back(std::move(done));
 }
 
 bool Checks::is_all_expected() const {

@@ -94,6 +94,9 @@ class Checks {
     /// or nothing. An Error and a cl::Error are wrong, too.
     void run(const std::string& name, const std::function<std::string()>& check);
 
+    /// Adds a finished one, which a worker tells its parent, too.
+    void add(Check done);
+
     const std::vector<Check>& list() const { return list_; }
 
     bool is_all_expected() const;
@@ -168,7 +171,7 @@ void check_pictures(Checks& checks, const DeviceChoice& device, const std::strin
 void check_stress(Checks& checks, const std::string& spec, const std::string& prefix);
 
 struct Blame {
-    std::string verdict;     ///< what is to blame; empty: nothing is wrong
+    std::string verdict;     ///< what is to blame; empty: nothing is found
     std::string text;        ///< what was tried, and what came out
     std::string reproducer;  ///< folder with a program that shows it; empty: none
 };

@@ -100,6 +100,11 @@ class Selftest(WrongDriver):
         shim = {"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "abort"}
         result = self.selftest(1, "--filter", "dot3/float/1,mul3/float/1", shim=shim)
         self.assertIn("dot3/float/1: the worker process was killed by SIGABRT", result.stderr)
+        shim = {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "abort", "CL_SHIM_DIE_AT": "12"}
+        result = self.selftest(1, "--filter", "[a-d]*/float/1", "--json", "-", shim=shim)
+        checks = json.loads(result.stdout)["checks"]
+        self.assertEqual([check["right"] for check in checks][-3:], [True, True, False], checks)
+        self.assertIn("was killed by SIGABRT", checks[-1]["why"])
 
     def test_without_such_a_device(self):
         self.run_with({}, "selftest", "--device", "name:nobody's", code=5)
