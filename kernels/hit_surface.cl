@@ -123,7 +123,7 @@ Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask 
     if (any_lane(touching)) {
         Reals tie = max_of(RT_TIE * (hit->t + length3(ray->origin)), hit->behind);
         Reals back = (Reals)8 * surface.offset + (hit->tied ? tie : (Reals)0);
-        back = min_of(back, (Reals)0.5 * hit->t);  // not beyond what the ray started from
+        back = min_of(back, (Reals)0.5f * hit->t);  // not beyond what the ray started from
         real3 moved = add_scaled(surface.point, -back, ray->dir);
         surface.point = select3(touching, moved, surface.point);
         surface.back = touching ? back : (Reals)0;

@@ -169,7 +169,7 @@ GUARDS = [
         (K + "closest_hit.cl", "search->behind = (Reals)2 * surface.offset / sine", "search->behind = (Reals)0"),
     ], [("geometry_touching_test", "Touching.*")]),
     Guard("points of ties stay in front of what their ray left", [
-        (K + "hit_surface.cl", "back = min_of(back, (Reals)0.5 * hit->t);", ""),
+        (K + "hit_surface.cl", "back = min_of(back, (Reals)0.5f * hit->t);", ""),
     ], [("kernel_surface_test", "SurfaceAt.*")]),
     Guard("and for short rays of the origin's distance, too", [
         (K + "search.cl", " + search->slack;", ";"),
