@@ -162,8 +162,7 @@ GUARDS = [
         (K + "closest_hit.cl", "if (search.finds_first || !any_lane(tied)) break;", "break;"),
     ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
     Guard("surfaces within 32 u are one", [
-        (K + "scene_view.h", "#define RT_TIE ((Real)32 * (Real)RT_ROUNDOFF)",
-         "#define RT_TIE ((Real)0)"),
+        (K + "scene_view.h", "#define RT_TIE ((Real)32 * (Real)RT_ROUNDOFF)", "#define RT_TIE ((Real)0)"),
     ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
     Guard("behind glass more surfaces are one", [
         (K + "closest_hit.cl", "search->behind = (Reals)2 * surface.offset / sine", "search->behind = (Reals)0"),

@@ -150,8 +150,7 @@ MUTANTS = [
         ("host/print/print_run.h", "if (wrong) return", "if (wrong && interrupted) return"),
     ], cli("measure_cases.Bench.test_a_picture_that_is_off_in_a_bit_is_wrong")),
     Mutant("stress ignores differing hashes", [
-        ("host/stress/judge.cpp", "if (hashes.size() < 2) continue;",
-         "if (hashes.size() < 200) continue;"),
+        ("host/stress/judge.cpp", "if (hashes.size() < 2) continue;", "if (hashes.size() < 200) continue;"),
     ], cli("measure_cases.Stress.test_devices_that_disagree_in_a_bit_fail")),
     Mutant("stress ignores same_bits", [
         ("host/stress/judge.cpp", "if (!trial.same_bits ||", "if (trial.same_bits ||"),
