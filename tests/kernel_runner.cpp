@@ -150,7 +150,7 @@ class Recorder {
         for (auto& [function, launches] : launches_) {
             std::size_t items = 0;
             for (auto& [hash, record] : launches) {
-                if (items + record.count > 3 * most_items(record.has_scene())) continue;
+                if (items + record.count > 6 * most_items(record.has_scene())) continue;
                 items += record.count;
                 expect_native_bits(record);
                 all.push_back(std::move(record));
@@ -161,7 +161,7 @@ class Recorder {
 
    private:
     static constexpr std::size_t most_bytes = 20000;
-    static constexpr std::size_t most_items(bool has_scene) { return has_scene ? 24 : 64; }
+    static constexpr std::size_t most_items(bool has_scene) { return has_scene ? 12 : 32; }
 
     /// Launches of each function and precision by a hash of their inputs, those that take scenes
     /// last.
