@@ -8,6 +8,7 @@
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
 #include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 
 namespace rt {
 
