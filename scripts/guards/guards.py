@@ -172,7 +172,7 @@ GUARDS = [
     ], [("kernel_surface_test", "SurfaceAt.*")]),
     Guard("and for short rays of the origin's distance, too", [
         (K + "search.cl", " + search->slack;", ";"),
-    ], [("kernel_scene_test", "ClosestHit.*"), ("geometry_touching_test", "Touching.*")]),
+    ], [("kernel_scene_test", "ClosestHit.*")]),
     Guard("a smooth mirror never reflects under its face", [
         (K + "whitted.cl", "mirrored = select3(leaves, mirrored, reflect3(dir, "
          "surface->geometric));", "mirrored = select3(leaves, mirrored, mirrored);"),
