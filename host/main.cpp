@@ -23,10 +23,6 @@ namespace rt {
 
 namespace {
 
-constexpr AddVerb* verbs[] = {add_render, add_merge,    add_compare, add_bench,  add_converge,
-                              add_stress, add_report,   add_devices, add_doctor, add_explain,
-                              add_scene,  add_selftest, add_blame};
-
 constexpr double deadline = 10;  ///< seconds without progress after which a driver counts as hung
 
 /// Where OpenCL's loader looks for its drivers: a folder of .icd files, or one of them.
@@ -59,7 +55,7 @@ int run(int argc, char** argv, double seconds_before_main) {
     call.command.assign(argv, argv + argc);
     call.drivers = icd_place();
     call.seconds_before_main = seconds_before_main + seconds_before_worker();
-    for (AddVerb* const add : verbs) add(program, call);
+    for (AddVerb* const add : all_verbs) add(program, call);
     Verb& verb =
         read_command_line(program, fmt::format("mirrorball {} ({})", version, git_revision),
                           {argv + 1, argv + std::max(argc, 1)});

@@ -128,4 +128,9 @@ using AddVerb = void(Verb& program, const Invocation& call);
 AddVerb add_render, add_merge, add_compare, add_bench, add_converge, add_stress, add_report,
     add_devices, add_doctor, add_explain, add_scene, add_selftest, add_blame;
 
+/// In the order of the help.
+inline constexpr AddVerb* all_verbs[] = {
+    add_render,  add_merge,  add_compare, add_bench, add_converge, add_stress, add_report,
+    add_devices, add_doctor, add_explain, add_scene, add_selftest, add_blame};
+
 }  // namespace rt
