@@ -112,6 +112,7 @@ void leave_out_failing(Drivers& drivers, const Listing& together, double deadlin
     const bool is_only = drivers.files.size() == 1;
     std::erase_if(drivers.files, [&](const std::string& file) {
         const Listing alone = is_only ? together : list_linked({file}, {}, deadline);
+        if (!alone.is_started) return false;
         std::string failure = alone.failure;
         if (failure.empty() && !alone.answer.at("skipped").empty()) {
             failure = cannot_be_loaded + alone.answer.at("skipped").front().get<std::string>();
