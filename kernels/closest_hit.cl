@@ -20,17 +20,21 @@ Indices side_of(const Surface* surface, real3 dir) {
     return surface->material * 2 + (inside & 1);
 }
 
+bool is_glass(const SceneView* scene, Index material) {
+    Packed3 through = scene->materials[material].transmission;
+    return RT_HAS(GLASS) && (through.x != (Real)0 || through.y != (Real)0 || through.z != (Real)0);
+}
+
 // offer_hit, but for surfaces in the rays' zones that they have crossed: in the lanes returned.
-// Refracted rays start up to twice the surface's offset behind glass: other surfaces there tie.
+// Refracted rays start up to twice the surface's offset behind a face of glass: other surfaces
+// there tie. (Spheres meet others in points.)
 Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
-                     Reals u, Reals v, Index prim, Index material) {
+                     Reals u, Reals v, Index prim, bool is_glass_face) {
     Mask crossed = RT_NO_LANES;
     search->behind = (Reals)0;
     if (RT_HAS(GLASS)) {
-        Packed3 through = scene->materials[material].transmission;
-        bool is_glass = (through.x != (Real)0) | (through.y != (Real)0) | (through.z != (Real)0);
         Mask zoned = met & (t > (Reals)0) & (t <= ray->zone);
-        Mask nearest = is_glass ? met & (t > (Reals)0) & (t <= search->hit.t) : RT_NO_LANES;
+        Mask nearest = is_glass_face ? met & (t > (Reals)0) & (t <= search->hit.t) : RT_NO_LANES;
         if (any_lane(zoned | nearest)) {
             Hit hit = {t, u, v, (Indices)prim, RT_NO_LANES, (Reals)0};
             Surface surface = primitive_surface(scene, ray, &hit, prim);
@@ -40,7 +44,7 @@ Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mas
                 crossed &= zoned;
             }
             Reals sine = max_of(fabs(dot3(surface.geometric, ray->dir)), (Reals)RT_SHARPEST);
-            if (is_glass) search->behind = (Reals)2 * surface.offset / sine;
+            if (is_glass_face) search->behind = (Reals)2 * surface.offset / sine;
         }
     }
     offer_hit(scene, search, met & !crossed, t, u, v, prim);
@@ -49,12 +53,12 @@ Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mas
 
 // offer_uncrossed for a sphere or cone that is met at t and, if that is farther, left at `far`.
 void offer_curved(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
-                  Reals far, Index prim, Index material) {
+                  Reals far, Index prim, bool is_glass_face) {
     const Reals none = (Reals)0;
-    Mask crossed = offer_uncrossed(scene, ray, search, met, t, none, none, prim, material);
+    Mask crossed = offer_uncrossed(scene, ray, search, met, t, none, none, prim, is_glass_face);
     crossed &= far > t;
     if (RT_HAS(GLASS) && any_lane(crossed)) {
-        offer_uncrossed(scene, ray, search, crossed, far, none, none, prim, material);
+        offer_uncrossed(scene, ray, search, crossed, far, none, none, prim, is_glass_face);
     }
 }
 
@@ -69,8 +73,7 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
             Mask met = intersect_sphere(ray, sphere, prim, &t);
             if (any_lane(met)) {
                 Reals middle = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
-                offer_curved(scene, ray, search, met, t, (Reals)2 * middle - t, prim,
-                             sphere->material);
+                offer_curved(scene, ray, search, met, t, (Reals)2 * middle - t, prim, false);
             }
         }
     }
@@ -87,7 +90,8 @@ void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, 
             Mask leaving = leaves_cone(ray, &scene->cones[i], prim);
             Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t, &far);
             if (!any_lane(met)) continue;
-            offer_curved(scene, ray, search, met, t, far, prim, scene->cones[i].material);
+            offer_curved(scene, ray, search, met, t, far, prim,
+                         is_glass(scene, scene->cones[i].material));
         }
     }
 }
@@ -107,7 +111,8 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
             if (RT_HAS(EYE_ON_SURFACE) && scene->triangles[i].plane == (Real)0) {
                 met &= ray->from != RT_EYE;
             }
-            offer_uncrossed(scene, ray, search, met, t, u, v, prim, scene->triangles[i].material);
+            offer_uncrossed(scene, ray, search, met, t, u, v, prim,
+                            is_glass(scene, scene->triangles[i].material));
         }
     }
 }
