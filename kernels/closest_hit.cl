@@ -31,7 +31,7 @@ bool is_glass(const SceneView* scene, Index material) {
 Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
                      Reals u, Reals v, Index prim, bool is_glass_face) {
     Mask crossed = RT_NO_LANES;
-    search->behind = (Reals)0;
+    Reals behind = (Reals)0;
     if (RT_HAS(GLASS)) {
         Mask zoned = met & (t > (Reals)0) & (t <= ray->zone);
         Mask nearest = is_glass_face ? met & (t > (Reals)0) & (t <= search->hit.t) : RT_NO_LANES;
@@ -44,10 +44,10 @@ Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mas
                 crossed &= zoned;
             }
             Reals sine = max_of(fabs(dot3(surface.geometric, ray->dir)), (Reals)RT_SHARPEST);
-            if (is_glass_face) search->behind = (Reals)2 * surface.offset / sine;
+            if (is_glass_face) behind = (Reals)2 * surface.offset / sine;
         }
     }
-    offer_hit(scene, search, met & !crossed, t, u, v, prim);
+    offer_hit(scene, search, met & !crossed, t, u, v, behind, prim);
     return crossed;
 }
 

@@ -21,7 +21,6 @@ typedef struct {
     Indices number;    // second pass: the hit primitive's number in the scene
     Reals limit;       // farther hits do not count; negative: the lane is off
     Reals slack;       // RT_TIE of the origin's distance from the eye
-    Reals behind;      // Hit::behind of the surface being offered
     bool finds_first;  // second pass: find the first in the scene, not the nearest
 } Search;
 
@@ -52,9 +51,9 @@ Reals end_of_tie(const Search* search, Reals t) {
 }
 
 // Records primitive prim, which the lines of some lanes meet at t (possibly behind the origin, or
-// NaN).
+// NaN). `behind` as in Hit.
 void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Reals u, Reals v,
-               Index prim) {
+               Reals behind, Index prim) {
     Mask met = lanes & (t > (Reals)0) & (t <= search->limit);
     if (!any_lane(met)) return;
     Mask better = met & (t < search->hit.t);
@@ -68,7 +67,7 @@ void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Real
         Mask nearest = better;
         if (RT_HAS(GLASS)) {  // the same where several are nearest, in whatever order
             Mask as_near = met & (t == search->hit.t);
-            Reals behind = as_near ? max_of(search->behind, search->hit.behind) : search->behind;
+            behind = as_near ? max_of(behind, search->hit.behind) : behind;
             nearest |= as_near;
             search->hit.behind = nearest ? behind : search->hit.behind;
         }

@@ -69,7 +69,7 @@ std::string why_skipped(const std::string& file) {
     return is_driver ? "" : dlerror();
 }
 
-const std::string cannot_be_loaded = "cannot be loaded: ";
+constexpr const char* cannot_be_loaded = "cannot be loaded: ";
 
 std::string problem_of(const std::string& file, const std::string& what) {
     return printable(

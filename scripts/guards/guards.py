@@ -165,7 +165,7 @@ GUARDS = [
         (K + "scene_view.h", "#define RT_TIE ((Real)32 * (Real)RT_ROUNDOFF)", "#define RT_TIE ((Real)0)"),
     ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
     Guard("behind glass more surfaces are one", [
-        (K + "closest_hit.cl", "search->behind = (Reals)2 * surface.offset / sine", "search->behind = (Reals)0"),
+        (K + "closest_hit.cl", "behind = (Reals)2 * surface.offset / sine", "behind = (Reals)0"),
     ], [("geometry_touching_test", "Touching.*")]),
     Guard("points of ties stay in front of what their ray left", [
         (K + "hit_surface.cl", "back = min_of(back, (Reals)0.5f * hit->t);", ""),
